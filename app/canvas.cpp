@@ -1,4 +1,4 @@
-// The one file that includes cairo.
+// The only file that includes cairo.
 #include "app/canvas.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-/// A cell as triangles that take in all of its nodes.
+/// Divides a cell into triangles that use all of its nodes.
 std::vector<Triangle> triangles(CellShape shape) {
   switch (shape) {
     case CellShape::triangle3: return {{0, 1, 2}};
@@ -33,11 +33,11 @@ std::vector<Triangle> triangles(CellShape shape) {
   return {};
 }
 
-/// Of each point, the first that lies where it does. A beam's elements share places, not points.
+/// For each point, the first one at the same place. The elements of a beam have coinciding but separate points.
 std::vector<int> first_at_same_place(const Eigen::Matrix2Xd& points) {
   const Vector2d low = points.rowwise().minCoeff();
   const double reach = 1e-7 * (points.rowwise().maxCoeff() - low).norm();
-  std::map<std::pair<long, long>, int> known;  // by square of twice the reach
+  std::map<std::pair<long, long>, int> known;  // by square of twice the tolerance
   std::vector<int> first(static_cast<std::size_t>(points.cols()));
   for (int i = 0; i < points.cols(); ++i) {
     const Vector2d at = (points.col(i) - low) / (2 * reach);
@@ -64,12 +64,12 @@ void for_each_triangle(const std::vector<Cells>& cells, const Draw& draw) {
       }
 }
 
-/// The bytes of a picture, rows from above.
+/// The bytes of a picture, top row first.
 struct Pixels {
   unsigned char* bytes;
   int stride, width, height;
 
-  /// A triangle whose colour is linear between its corners: the pixels whose middle is in it.
+  /// A triangle with linear colour between its corners: fills the pixels whose centre is inside.
   void shade(const std::array<Vector2d, 3>& r, const std::array<Colour, 3>& colour) {
     const Vector2d low = r[0].cwiseMin(r[1]).cwiseMin(r[2]), high = r[0].cwiseMax(r[1]).cwiseMax(r[2]), d1 = r[1] - r[0], d2 = r[2] - r[0];
     const double area = d1.x() * d2.y() - d1.y() * d2.x();
@@ -79,7 +79,7 @@ struct Pixels {
       for (int x = pixel(low.x() - 0.5, width); x < pixel(high.x() + 1.5, width); ++x) {
         const Vector2d d = Vector2d(x + 0.5, y + 0.5) - r[0];
         const double b = (d.x() * d2.y() - d.y() * d2.x()) / area, c = (d1.x() * d.y() - d1.y() * d.x()) / area;
-        constexpr double edge = -1e-9;  // a pixel on a side belongs to both its triangles
+        constexpr double edge = -1e-9;  // a pixel on a side belongs to both triangles
         if (b < edge || c < edge || b + c > 1 - edge) continue;
         const Colour mixed = 255 * ((1 - b - c) * colour[0] + b * colour[1] + c * colour[2]);
         unsigned char* at = bytes + static_cast<std::ptrdiff_t>(y) * stride + 4 * x;
@@ -132,7 +132,7 @@ void Canvas::clear() {
 void Canvas::paint(const Colour& colour) { cairo_set_source_rgb(surface_->pen, colour.x(), colour.y(), colour.z()); }
 
 void Canvas::trace(const std::vector<Vector2d>& line, bool closed) {
-  constexpr double far = 1e5;  // cairo counts pixels in 24 bits
+  constexpr double far = 1e5;  // cairo uses 24 bits for pixel coordinates
   for (const Vector2d& r : line) {
     const Vector2d at = r.cwiseMax(-far).cwiseMin(far);
     cairo_line_to(surface_->pen, at.x(), height_ - at.y());
@@ -152,7 +152,7 @@ void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cell
     cairo_new_sub_path(surface_->pen);
     trace({points.col(t[0]), points.col(t[1]), points.col(t[2])}, true);
   });
-  cairo_fill(surface_->pen);  // all at once: between triangles filled one by one the paper would show
+  cairo_fill(surface_->pen);  // all at once: if filled one by one, the paper would show between triangles
 }
 
 void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, const std::vector<Colour>& colours) {
@@ -238,7 +238,7 @@ double Canvas::width_of(const std::string& text) const {
 }
 
 std::span<const unsigned char> Canvas::pixels() const {
-  cairo_surface_flush(surface_->image);  // rows of four bytes a pixel follow each other without a gap
+  cairo_surface_flush(surface_->image);  // rows of four bytes per pixel, without gaps
   return {cairo_image_surface_get_data(surface_->image), 4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)};
 }
 

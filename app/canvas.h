@@ -15,16 +15,16 @@ namespace pintle {
 using Colour = Eigen::Vector3d;  // red, green, blue in 0 … 1
 using Eigen::Vector2d;
 
-/// From blue, the least, to red, the greatest. @param share  clamped to 0 … 1
+/// From blue for the least value to red for the greatest. @param share  clamped to 0 … 1
 Colour field_colour(double share);
 
 enum class Align { left, right };
 
-/// A white picture to draw on, in pixels from its lower left corner; what is drawn later lies above. Drawn by cairo, which canvas.cpp
-/// alone knows; it needs no display.
+/// A white picture to draw on, in pixels from its lower left corner; later drawings cover earlier ones. Drawn by cairo, which only
+/// canvas.cpp uses; it needs no display.
 class Canvas {
  public:
-  /// @param letters  their size [px]
+  /// @param letters  font size [px]
   Canvas(int width, int height, double letters);
   ~Canvas();
   Canvas(const Canvas&) = delete;
@@ -33,12 +33,12 @@ class Canvas {
 
   void fill(const std::vector<Vector2d>& outline, const Colour& colour);
 
-  /// Cells, those of second order in straight pieces.
+  /// Cells; the sides of second-order ones consist of straight pieces.
   void fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, const Colour& colour);
-  /// @param colours  one a point and linear between them
+  /// @param colours  one per point, with linear interpolation
   void fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, const std::vector<Colour>& colours);
 
-  /// The sides that belong to one cell alone. Points that coincide count as one.
+  /// The sides that belong to a single cell. Coinciding points count as one.
   void stroke_outline(const Eigen::Matrix2Xd& points, const std::vector<Cells>&, double width, const Colour& colour);
 
   /// A line with round corners and ends.
@@ -48,14 +48,14 @@ class Canvas {
 
   void arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour);
 
-  /// Three quarters of a circle with a head, of a couple.
+  /// Three quarters of a circle with an arrowhead, for a couple.
   void turn(const Vector2d& centre, double radius, bool counter_clockwise, double width, const Colour& colour);
 
-  /// At the foot of its letters, to the right of x or to the left of it.
+  /// Text with its baseline at y, to the right or left of x.
   void words(const std::string& text, double x, double y, Align, const Colour& colour);
   double width_of(const std::string& text) const;
 
-  /// Blue, green, red and a byte of nothing for each pixel, rows from above.
+  /// Blue, green, red and an unused byte for each pixel, top row first.
   std::span<const unsigned char> pixels() const;
   /// @throws FileError
   void write_png(const std::filesystem::path&) const;

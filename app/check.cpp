@@ -1,4 +1,4 @@
-// The command check: what a scene holds and requires, and what its run will cost.
+// The command check: the contents and requirements of a scene, and the cost estimate of its run.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -37,17 +37,17 @@ std::string bodies_text(const System& s) {
   return std::to_string(rigid) + " rigid" + (flexible > 0 ? ", " + text : "");
 }
 
-/// In per cent, what is nothing but rounding as 0.
+/// In per cent, with values that are only rounding as 0.
 std::string percent(double part) { return number(std::abs(part) < 1e-6 ? 0 : 100 * part, 3); }
 
-/// What is kept of each flexible body.
+/// Prints the modes kept for each flexible body.
 void print_flexible(const Model& model) {
   std::size_t width = 4;
   for (const FlexibleReport& r : model.flexible) width = std::max(width, r.body.size());
   const auto line = [&](const std::vector<std::string>& cells) {
     const std::size_t widths[] = {width + 2, 8, 22, 20, 24, 0};
     std::cout << "  ";
-    for (std::size_t i = 0; i < cells.size(); ++i)  // two blanks at least, however long the entry
+    for (std::size_t i = 0; i < cells.size(); ++i)  // at least two blanks, however long the entry
       std::cout << cells[i] << std::string(i + 1 == cells.size() ? 0 : std::max(widths[i], cells[i].size() + 2) - cells[i].size(), ' ');
     std::cout << "\n";
   };
@@ -59,7 +59,7 @@ void print_flexible(const Model& model) {
           percent(r.compliance) + (r.compliance_at.empty() ? "" : " (" + r.compliance_at + ")") + "; " + r.basis});
 }
 
-/// How `keep: auto` came to its modes.
+/// How `keep: auto` chose its modes.
 void print_choice(const FlexibleReport& r) {
   std::cout << "  \"" << r.body << "\": keep auto: " << r.choice->reason << "\n";
   if (r.choice->considered.empty()) return;
@@ -102,7 +102,7 @@ std::string some(const std::vector<std::string>& names) {
   return out + " and " + std::to_string(names.size() - most) + " more";
 }
 
-/// Redundant rows of one joint that the same others imply, on one line.
+/// Redundant rows of one joint implied by the same joints, for one line of output.
 struct RedundantRows {
   const Redundancy* first;
   std::string rows;
@@ -122,7 +122,7 @@ std::vector<RedundantRows> grouped(const System& s, const std::vector<Redundancy
   return out;
 }
 
-/// Which rows repeat what others hold, and which joint forces follow from the motion all the same. All of them are in --json.
+/// Prints which rows are redundant, and which joint forces are nevertheless unique. --json lists all of them.
 void print_redundancy(const System& s, const Assembly& a) {
   constexpr std::size_t most = 8;
   const std::vector<RedundantRows> groups = grouped(s, a.redundant);
@@ -177,7 +177,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
   for (const std::string& w : warnings_of(model, a)) std::cout << "  warning: " << w << "\n";
   for (const std::string& w : tables_left(scene, model, a.start)) std::cout << "  warning: " << w << "\n";
 }
-/// What `run` would say of the room for its results.
+/// Adds the warnings that `run` would give about disk space for its results.
 void foresee_room(const Options& options, const Scene& scene, Model& model) {
   const fs::path out = results_directory(options);
   try {
@@ -186,7 +186,7 @@ void foresee_room(const Options& options, const Scene& scene, Model& model) {
     model.warnings.push_back(impossible.what());
   }
 }
-/// Bodies that forces have nothing to act on.
+/// Bodies without mass, for which forces have no effect.
 std::vector<std::string> massless_bodies(const Scene& scene) {
   std::vector<std::string> out;
   for (const SceneBody& b : scene.bodies)
@@ -194,7 +194,7 @@ std::vector<std::string> massless_bodies(const Scene& scene) {
   return out;
 }
 
-/// What there is to say of a scene whose motion can be asked for, but not its forces.
+/// Checks a scene for which kinematics is possible, but no forces.
 int check_kinematics(const Options& options, Waiting& waiting, Scene scene, const std::vector<std::string>& massless) {
   scene.warnings.push_back(
       listed(massless, "and") + (massless.size() == 1 ? " lacks" : " lack") +

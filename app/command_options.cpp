@@ -78,7 +78,7 @@ CLI::Validator whole(int least, int most) {
       "");
 }
 
-/// Of files and folders: `--out ""` is no default but a variable of a script that was never set.
+/// For files and folders: `--out ""` is not a default, but an unset variable of a script.
 CLI::Validator named() {
   return CLI::Validator(
       [](const std::string& path) {
@@ -87,7 +87,7 @@ CLI::Validator named() {
       "");
 }
 
-/// A file that is written in one way only, so that another ending would be a lie. @param ending  ".svg"   @param what  "a plot is SVG"
+/// A file with a fixed format, for which another ending would be misleading. @param ending  ".svg"   @param what  "a plot is SVG"
 CLI::Validator ends_in(const std::string& ending, const std::string& what) {
   return CLI::Validator(
       [ending, what](const std::string& path) {
@@ -99,7 +99,7 @@ CLI::Validator ends_in(const std::string& ending, const std::string& what) {
       "");
 }
 
-/// What sweeps and trade-offs share: a study, overrides, the way results go.
+/// Options common to sweeps and trade-offs: a study, overrides, the destination of results.
 void add_study_options(CLI::App& command, Options& options, const std::string& study, const std::string& all, const std::string& out) {
   command.add_option("study", options.scene, study)->required()->check(named())->type_name("FILE.yaml");
   command.add_option("--set", options.set, "override a parameter or key of the scene in all " + all + "; may be repeated")
@@ -138,7 +138,7 @@ constexpr const char* what_nonlinear_writes =
     "  study.yaml, scene.yaml, journal-0.txt   as for sweep; after an interruption, the same command continues from there\n"
     "Exit code 4: the run failed for every parameter value. Others: see pintle --help\n";
 
-/// What a study of cases shares with the others.
+/// Options common to all studies of cases.
 void add_sweep_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
   add_study_options(
@@ -203,7 +203,7 @@ void add_linearize_options(CLI::App& command, Options& options) {
   command.footer(what_linearize_writes);
 }
 
-/// What a scene may reach and cost, which no scene can say: SECURITY.md.
+/// Limits of access and cost for a scene, which no scene can set: SECURITY.md.
 void add_bounds(CLI::App& command, Options& options) {
   command.add_option("--allow-path", options.allowed, "also let the scene read files in this folder and its subfolders; may be repeated")
       ->allow_extra_args(false)
@@ -260,7 +260,7 @@ void add_plot_options(CLI::App& command, Options& options) {
 
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
-  if (name == "picture" || name == "film" || name == "view") {  // whose options the program that does it knows
+  if (name == "picture" || name == "film" || name == "view") {  // handled by the program that executes it
     command.prefix_command()->set_help_flag();
     command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
     return;

@@ -6,7 +6,7 @@
 
 namespace pintle::app {
 
-/// What a command takes on the command line, by its name, and what its help says of the files that it writes.
+/// The options of a command, by its name, and the description in its help of the files it writes.
 void add_options(CLI::App& command, Options&);
 
 }  // namespace pintle::app

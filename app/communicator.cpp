@@ -11,11 +11,11 @@ namespace pintle::app {
 
 namespace {
 
-/// As many as a launcher says it has started; 0 if there is no launcher.
+/// The number of processes started by a launcher; 0 if there is none.
 int launched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
     if (const char* size = std::getenv(name)) return std::atoi(size);
-  // srun sets these for the tasks of a step; the script of a batch job has neither.
+  // srun sets these for the tasks of a step; the script of a batch job has neither of them.
   if (std::getenv("SLURM_STEP_NUM_TASKS") && std::getenv("SLURM_PROCID") && std::getenv("SLURM_LOCALID"))
     return std::atoi(std::getenv("SLURM_STEP_NUM_TASKS"));
   return std::getenv("PMIX_RANK") || std::getenv("PMI_RANK") ? 1 : 0;

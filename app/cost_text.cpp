@@ -16,7 +16,7 @@ std::string join(const std::vector<std::string>& parts) {
   return out;
 }
 
-/// Rounded, so that more is not claimed than is known.
+/// Rounded to the accuracy of the estimate.
 double rounded(double x, int digits) {
   if (!(x > 0)) return 0;
   const double unit = std::pow(10, std::floor(std::log10(x)) + 1 - digits);

@@ -4,8 +4,8 @@
 
 namespace pintle::app {
 
-/// What a run will cost and what would save how much of it, as `pintle check` prints it.
-/// @param build_seconds  spent on building the model
+/// Prints the cost estimate of a run and possible savings, for `pintle check`.
+/// @param build_seconds  time spent on building the model
 void print_cost(const CostEstimate&, double build_seconds);
 
 }  // namespace pintle::app

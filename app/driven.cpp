@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// compute(listeners) with progress shown, and its frames, if the scene asks for any, given to `writer`.
+/// compute(listeners) with a progress display; frames, if the scene requests any, are passed to `writer`.
 template <class Compute>
 auto watched(const Scene& scene, const Model& model, std::optional<FrameWriter>& writer, const Options& options, Compute compute) {
   now_doing("computing the motion");

@@ -24,9 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int default_frames = 24;
-constexpr Eigen::Index frames_up_to = 30'000;  ///< nodes; larger bodies are animated only when asked
+constexpr Eigen::Index frames_up_to = 30'000;  ///< nodes; larger bodies are animated only on request
 
-/// x, or 0 where it is nothing but rounding beside `scale`.
+/// x, or 0 if it is only rounding relative to `scale`.
 double tidy(double x, double scale) { return std::abs(x) < 1e-9 * scale ? 0 : x; }
 
 std::string place(const Eigen::Vector2d& x, double size) {
@@ -69,7 +69,7 @@ std::string percent(double part, double whole) {
   return text;
 }
 
-/// `residual`: also what is left of K φ − ω² M φ; static shapes are no modes of the body and have a large one.
+/// `residual`: also prints the remainder of K φ − ω² M φ, which is large for static shapes, since they are not modes of the body.
 void print_table(const ModeTable& t, const ModesReport& r, bool residual) {
   std::printf("\n  %s\n  %4s %15s %9s %9s %11s %9s %10s\n", t.title.c_str(), "mode", "frequency [Hz]", "mass x %", "mass y %", "rotation %",
               "damping", residual ? "residual" : "");

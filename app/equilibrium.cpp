@@ -1,4 +1,4 @@
-// The command statics: where a mechanism rests.
+// The command statics: the equilibrium of a mechanism.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -62,7 +62,7 @@ Column split(const std::string& header) {
           header.substr(bracket + 2, header.size() - bracket - 3)};
 }
 
-/// A row for each body, joint, clearance and load with what the table says of it; rates left out, rounding as 0.
+/// A row for each body, joint, clearance and load with its values in the table; rates are omitted, rounding is shown as 0.
 void add_values(const Table& table, Rows& rows) {
   std::map<std::string, double> greatest;
   for (std::size_t c = 0; c < table.data.size(); ++c) {

@@ -28,14 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What ffmpeg is told of a kind of file: its name for it, and how pictures are packed.
+/// ffmpeg's options for a kind of file: its name for it, and its compression.
 std::vector<std::string> packing(const std::string& ending) {
   if (ending == ".mp4") return {"-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"};
   if (ending == ".webm") return {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-cpu-used", "4", "-pix_fmt", "yuv420p", "-f", "webm"};
   return {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=none", "-loop", "0", "-f", "gif"};
 }
 
-/// Of a film's name: `file:` keeps ffmpeg from taking it for an address or an option.
+/// For the name of a film: `file:` prevents ffmpeg from treating it as an address or an option.
 std::vector<std::string> arguments(const fs::path& ending, const fs::path& part, int width, int height, double rate) {
   std::string pictures_a_second;
   append_number(pictures_a_second, rate);
@@ -64,10 +64,10 @@ std::vector<std::string> arguments(const fs::path& ending, const fs::path& part,
 
 constexpr const char* no_ffmpeg = "ffmpeg, the program that encodes films, is not installed: apt-get install ffmpeg";
 
-/// In a folder of PATH.
+/// Looks in the folders of PATH.
 bool ffmpeg_is_there() {
   const char* const path = std::getenv("PATH");
-  if (path == nullptr) return true;  // the system has folders of its own then
+  if (path == nullptr) return true;  // the system then uses default folders
   std::istringstream folders(path);
   for (std::string folder; std::getline(folders, folder, ':');)
     if (::access((fs::path(folder.empty() ? "." : folder) / "ffmpeg").c_str(), X_OK) == 0) return true;
@@ -122,7 +122,7 @@ void FilmFile::start(int width, int height, double rate) {
   sigemptyset(&usual);
   sigaddset(&usual, SIGPIPE);
   posix_spawnattr_setsigdefault(&own, &usual);
-  posix_spawnattr_setpgroup(&own, 0);  // Ctrl-C is for this program alone, which then ends the film
+  posix_spawnattr_setpgroup(&own, 0);  // Ctrl-C goes only to this program, which then stops the film
   posix_spawnattr_setflags(&own, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   const int error = ::posix_spawnp(&child_, "ffmpeg", &files, &own, argv.data(), environ);
   posix_spawnattr_destroy(&own);

@@ -7,23 +7,23 @@
 
 namespace pintle {
 
-/// A film that is being made by the program ffmpeg, a child of this one without a shell: MP4, WebM or GIF, by the ending of its name.
-/// The file appears whole at the end or not at all.
+/// A film being made by the program ffmpeg, a child process started without a shell: MP4, WebM or GIF, by the ending of its name. The file
+/// appears complete at the end or not at all.
 class FilmFile {
  public:
-  /// @param width, height  even [px]   @param rate  pictures a second
-  /// @throws std::runtime_error  there is no ffmpeg; FileError  the file cannot be made
+  /// @param width, height  even [px]   @param rate  pictures per second
+  /// @throws std::runtime_error  there is no ffmpeg; FileError  the file cannot be created
   FilmFile(std::filesystem::path file, int width, int height, double rate);
-  ~FilmFile();  ///< unless it is finished, ends ffmpeg and leaves nothing
+  ~FilmFile();  ///< unless it is finished, stops ffmpeg and leaves no file
   FilmFile(const FilmFile&) = delete;
 
-  /// @param picture  as Canvas::pixels gives it. @throws std::runtime_error  what ffmpeg said
+  /// @param picture  from Canvas::pixels. @throws std::runtime_error  with ffmpeg's message
   void add(std::span<const unsigned char> picture);
-  /// @throws std::runtime_error  what ffmpeg said
+  /// @throws std::runtime_error  with ffmpeg's message
   void finish();
 
-  /// What would keep the film from being made, before its pictures are drawn: no ffmpeg, no folder, one that cannot be written to.
-  /// @throws std::runtime_error  FileError
+  /// Checks, before its pictures are drawn, whether a film can be made: ffmpeg and a writable folder exist.
+  /// @throws std::runtime_error, FileError
   static void foresee(const std::filesystem::path&);
   static bool is_film(const std::filesystem::path&);  ///< by its ending
 
@@ -33,7 +33,7 @@ class FilmFile {
   int wait();
 
   std::filesystem::path file_, part_;
-  int pictures_ = -1, words_ = -1;  ///< to ffmpeg; what it says, a file without a name
+  int pictures_ = -1, words_ = -1;  ///< pipe to ffmpeg; its messages, in an unnamed file
   pid_t child_ = -1;
 };
 

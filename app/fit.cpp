@@ -1,4 +1,4 @@
-// pintle fit: parameters that reach a goal.
+// pintle fit: parameters that achieve a goal.
 #include "framework/study/fit/fit.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
   if (end.stopped) std::cout << "  " << stopped_by() << "; the same command goes on from here\n";
 }
 
-/// What the end lacks; empty if nothing.
+/// What is missing in the result; empty if nothing.
 std::string lack(const FitPlan& plan, const FitEnd& end) {
   if (!end.best) {
     const auto first = std::ranges::find_if(end.tried, [](const Trying& t) { return !t.worth.known; });

@@ -7,7 +7,7 @@ namespace pintle::app {
 namespace {
 
 constexpr int usual_frames = 101, least_frames = 11;
-constexpr long drawn_points = 3'000'000;  ///< of flexible bodies in all frames: some 200 MB
+constexpr long drawn_points = 3'000'000;  ///< points of flexible bodies in all frames: about 200 MB
 
 }  // namespace
 

@@ -4,12 +4,12 @@
 
 namespace pintle::app {
 
-/// How many frames of its animation a run writes where the scene leaves it open: one at the start and at each
-/// hundredth of it, of finely meshed bodies fewer, but eleven at least.
+/// Default number of animation frames of a run: one at the start and at each hundredth of it, fewer for finely meshed bodies, but at least
+/// eleven.
 class FrameCount {
  public:
-  explicit FrameCount(Scene&);           ///< before it is built: what frames need is kept
-  void fit(const Model&, Scene&) const;  ///< after
+  explicit FrameCount(Scene&);           ///< before the scene is built: data for frames are then kept
+  void fit(const Model&, Scene&) const;  ///< after it is built
 
  private:
   bool open_;

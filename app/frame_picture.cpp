@@ -12,11 +12,11 @@ namespace pintle {
 
 namespace {
 
-constexpr double letters = 22;  // [px], of large pictures
+constexpr double letters = 22;  // [px], in large pictures
 const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1};
-constexpr int rim_width = 36, line_height = 34, field_row = 48;  // [px], of large pictures
+constexpr int rim_width = 36, line_height = 34, field_row = 48;  // [px], in large pictures
 
-/// Okabe and Ito's colours, which the colour-blind tell apart, less the yellow, which white swallows.
+/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is invisible on white.
 const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45},
                                     Colour{0.80, 0.47, 0.65}, Colour{0.34, 0.71, 0.91}, Colour{0.90, 0.62, 0.00}};
 
@@ -24,7 +24,7 @@ struct Arrows {
   const char* name;
   Colour colour;
 };
-/// By Giver.
+/// Indexed by Giver.
 const std::array<Arrows, 4> arrows{Arrows{"joint", {0.36, 0.38, 0.46}}, Arrows{"contact", {0.80, 0.16, 0.14}},
                                    Arrows{"spring", {0.45, 0.35, 0.10}}, Arrows{"load", {0.50, 0.18, 0.62}}};
 
@@ -34,7 +34,7 @@ int owner_of(const Drawing& drawing, const DrawnBody& body) {
   return static_cast<int>(std::find(drawing.owners.begin(), drawing.owners.end(), body.name) - drawing.owners.begin());
 }
 
-/// A colour for each owner that has a link or is flexible, in the order of the owners.
+/// A colour for each owner that is a link or flexible, in the order of the owners.
 std::map<int, Colour> body_colours(const Drawing& drawing) {
   std::map<int, Colour> colours;
   for (const DrawnLine& line : drawing.lines)
@@ -51,7 +51,7 @@ std::map<int, Colour> body_colours(const Drawing& drawing) {
 
 }  // namespace
 
-// Where things go ---------------------------------------------------------------------------------
+// Layout ------------------------------------------------------------------------------------------
 
 FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, const Drawing& first)
     : style_(style),
@@ -77,7 +77,7 @@ FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, cons
   canvas_ = std::make_unique<Canvas>(width_, height_, letters * small_);
 }
 
-/// Names from the right, in as many rows as they need beside the time, three at most and fewer in a low picture.
+/// Names from the right, in as many rows as needed next to the time, at most three and fewer in a low picture.
 void FramePicture::name_bodies(const Drawing& drawing) {
   const Canvas measure(1, 1, letters * small_);
   const double disc = 24 * small_, gap = 20 * small_, side = rim_width * small_;
@@ -87,7 +87,7 @@ void FramePicture::name_bodies(const Drawing& drawing) {
   std::vector<Label> row;
   double x = left;
   int rows = 0;
-  const auto end_row = [&] {  // flush right
+  const auto end_row = [&] {  // right-aligned
     for (Label& label : row) label.x += right - (x - gap), label.row = rows, labels_.push_back(label);
     row.clear(), x = left, ++rows;
   };
@@ -103,7 +103,7 @@ void FramePicture::name_bodies(const Drawing& drawing) {
   top_ = static_cast<int>(small_ * (42 + line_height * std::max(rows, 1)));
 }
 
-/// The scales of lengths and forces, the kinds of forces, and what is drawn larger than it is.
+/// The scales of lengths and forces, the kinds of forces, and what is drawn enlarged.
 void FramePicture::note_scales(const Drawing& drawing) {
   const Canvas measure(1, 1, letters * small_);
   const auto add = [&](Note::Kind kind, const std::string& text, const Colour& colour, double symbol) {
@@ -127,7 +127,7 @@ void FramePicture::note_scales(const Drawing& drawing) {
   if (drawing.deformation != 1) add_times("deformation", drawing.deformation);
 }
 
-/// In rows; of those for which a low picture has no room the last give way.
+/// Arranges notes in rows; if a low picture has no room for all, the last ones are omitted.
 void FramePicture::place_notes() {
   const double gap = 26 * small_, side = rim_width * small_;
   const int room = style_.height > 0 ? static_cast<int>((0.3 * style_.height / small_ - 50) / line_height) : 4;
@@ -140,11 +140,11 @@ void FramePicture::place_notes() {
   }
   const int rows = std::clamp(row + 1, 1, std::max(room, 1));
   std::erase_if(notes_, [&](const Note& note) { return note.row >= rows; });
-  for (Note& note : notes_) note.row = rows - 1 - note.row;  // from below
+  for (Note& note : notes_) note.row = rows - 1 - note.row;  // counted from below
   bottom_ = static_cast<int>(small_ * (50 + line_height * rows + field_rows() * field_row));
 }
 
-/// Chooses the scale, and the height where it is free, so that the world fills the picture.
+/// Chooses the scale, and the height if it is free, so that the mechanism fills the picture.
 void FramePicture::fit() {
   world_ = asked_;
   const int margins = bottom_ + top_, inner = static_cast<int>(width_ - 2 * rim_width * small_);
@@ -155,7 +155,7 @@ void FramePicture::fit() {
   height_ = style_.height;
   if (height_ == 0) {
     const double asked = sizes.y() / sizes.x() * inner + margins;
-    const double least = std::max(0.3 * width_, margins + 0.25 * width_);  // the mechanism is to be seen
+    const double least = std::max(0.3 * width_, margins + 0.25 * width_);  // the mechanism must be visible
     height_ = static_cast<int>(std::clamp(asked, least, std::max(0.8 * width_, least)));
   }
   if (style_.even) height_ -= height_ % 2;
@@ -169,7 +169,7 @@ Vector2d FramePicture::place(const Vector2d& world) const {
 
 double FramePicture::arrow_pixels() const { return 0.16 * std::min(width_, height_); }
 
-// What is drawn -----------------------------------------------------------------------------------
+// Drawing -----------------------------------------------------------------------------------------
 
 void FramePicture::draw(const Drawing& drawing) {
   canvas_->clear();
@@ -235,12 +235,12 @@ void FramePicture::draw_joint(const DrawnLine& line, const std::vector<Vector2d>
     return;
   }
   if (line.closed && line.part != Part::joint) canvas_->fill(r, line.part == Part::journal ? mix(ink, white, 0.7) : white);
-  constexpr double pin = 0.1;  // of the picture: larger circles are wheels
+  constexpr double pin = 0.1;  // relative to the picture: larger circles are wheels
   if (line.closed && line.part == Part::joint && (r[0] - r[r.size() / 2]).norm() < pin * height_) canvas_->fill(r, white);
   canvas_->stroke(r, line.closed, 3 * small_, ink);
 }
 
-/// Arrows longer than thrice the usual length are cut there. Of couples the sense alone is drawn.
+/// Arrows longer than three times the usual length are cut there. For couples only the direction is drawn.
 void FramePicture::draw_forces(const Drawing& drawing) {
   if (!style_.forces) return;
   for (const DrawnForce& f : drawing.forces) {
@@ -285,7 +285,7 @@ void FramePicture::draw_foot() {
 
 int FramePicture::field_rows() const { return style_.field.empty() ? 0 : width_ < 600 ? 2 : 1; }
 
-/// The scale of a field's colours: its name, its least and its greatest value; in a narrow picture the name above.
+/// The colour scale of a field: its name, least and greatest value; in a narrow picture with the name above.
 void FramePicture::draw_field_scale() {
   const std::string& field = style_.field;
   const std::size_t unit = field.rfind(" [");
@@ -298,7 +298,7 @@ void FramePicture::draw_field_scale() {
   const double left = beside ? 0.42 * width_ : side + canvas_->width_of(least) + gap;
   const double right = beside ? 0.82 * width_ : width_ - side - canvas_->width_of(greatest) - gap, step = (right - left) / steps;
   for (int i = 0; i < steps; ++i) {
-    const double x = left + i * step;  // each a little over the next: no paper shows between them
+    const double x = left + i * step;  // slight overlaps, so that no paper shows between them
     canvas_->fill({{x, y}, {x + step + 1, y}, {x + step + 1, y + high}, {x, y + high}}, field_colour((i + 0.5) / steps));
   }
   canvas_->words(field.substr(0, has_unit ? unit : field.size()), side, beside ? y : y + 0.8 * small_ * field_row, Align::left, ink);

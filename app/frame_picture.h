@@ -8,19 +8,19 @@
 
 namespace pintle {
 
-/// How frames are drawn, the same for all frames of a film.
+/// Style of frames, the same for all frames of a film.
 struct PictureStyle {
-  int width = 1400, height = 0;  ///< [px]; height 0: as the content asks
-  bool even = false;             ///< both even, as films must be
+  int width = 1400, height = 0;  ///< [px]; height 0: chosen by the content
+  bool even = false;             ///< both even, as required for films
   bool forces = true, paths = true;
-  bool timeless = false;  ///< a body alone, that is at no time
+  bool timeless = false;  ///< a body alone, without a time
   std::string field;      ///< of flexible bodies, in colour
 };
 
-/// Draws frames on a canvas of a fixed size: a uniform scale, time and names of the bodies above, scales below.
+/// Draws frames on a canvas of fixed size: a uniform scale, time and names of the bodies above, scales below.
 class FramePicture {
  public:
-  /// @param first  of the frames, for the names of the bodies   @throws std::invalid_argument  the size does not do
+  /// @param first  first frame, for the names of the bodies   @throws std::invalid_argument  the size is invalid
   FramePicture(const PictureStyle&, const Survey&, const Drawing& first);
 
   Canvas& canvas() { return *canvas_; }
@@ -34,12 +34,12 @@ class FramePicture {
     double x;
     int row;
   };
-  /// Below the picture, from the left, row after row.
+  /// A note below the picture, from the left, row after row.
   struct Note {
     enum Kind { lengths, forces, words } kind;
     std::string text;
     Colour colour;
-    double symbol, width;  ///< of what stands before the text, and of both [px]
+    double symbol, width;  ///< width of its symbol, and of symbol and text [px]
     double x = 0;
     int row = 0;
   };
@@ -60,17 +60,17 @@ class FramePicture {
   void draw_field_scale();
 
   PictureStyle style_;
-  Eigen::AlignedBox2d asked_, world_ = {};  ///< and with room about it
+  Eigen::AlignedBox2d asked_, world_ = {};  ///< as requested, and with a margin
   double usual_force_, largest_couple_;
   FieldRange range_;
-  std::array<bool, 4> givers_;                     ///< kinds of forces in some frame
+  std::array<bool, 4> givers_;                     ///< kinds of forces that occur in any frame
   int width_, height_ = 0, top_ = 0, bottom_ = 0;  ///< [px]
-  double small_ = 1;                               ///< letters and lines of small pictures are so many times as large
+  double small_ = 1;                               ///< scale of fonts and lines in small pictures
   double scale_ = 1;                               ///< [px/m]
   std::map<int, Colour> colours_;                  ///< of owners that are bodies with a shape
   std::vector<Label> labels_;
   std::vector<Note> notes_;
-  int unnamed_ = 0;  ///< bodies for whose names there is no room
+  int unnamed_ = 0;  ///< number of bodies without room for their names
   std::unique_ptr<Canvas> canvas_;
 };
 

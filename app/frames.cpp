@@ -80,7 +80,7 @@ DrawnBody body_of(vtkUnstructuredGrid* grid, const std::string& name, const fs::
   return body;
 }
 
-/// The deformation of a body, drawn `wanted` times as large in place of `drawn` times.
+/// Draws the deformation of a body with the factor `wanted` instead of `drawn`.
 void deform(DrawnBody& body, double drawn, double wanted) {
   for (const Field& field : body.fields)
     if (field.name == "displacement [m]") body.points += (wanted - drawn) * field.values;
@@ -165,7 +165,7 @@ std::vector<FrameFiles> frames_of(const fs::path& directory) {
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   std::vector<FrameFiles> frames;
-  for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {  // a part 0 begins a frame
+  for (int i = 0; list && i < list->GetNumberOfNestedElements(); ++i) {  // part 0 begins a frame
     vtkXMLDataElement* entry = list->GetNestedElement(i);
     const char *t = entry->GetAttribute("timestep"), *part = entry->GetAttribute("part"), *file = entry->GetAttribute("file");
     if (!t || !file) continue;

@@ -43,7 +43,7 @@ void print_modes(const Linearization& lin, int count) {
     std::printf("  %4d %-11s ", k, kind_text(m.kind));
     if (m.kind == LinearMode::Kind::zero)
       std::printf("%15s %15s %10s %13s", "0", "0", "", "");
-    else  // what rounding leaves is shown as nothing
+    else  // values within rounding are shown as zero
       std::printf("%15.9g %15.9g %10.4g %13.6g", m.frequency(), m.natural(), std::abs(m.root.real()) <= m.uncertainty ? 0 : m.damping(),
                   std::abs(m.root.real()) <= m.uncertainty ? 0 : -m.root.real());
     std::printf("  %s (%.3g %%)%s\n", m.carrier.c_str(), 100 * m.share,
@@ -68,7 +68,7 @@ void write_animations(const fs::path& out, const Scene& scene, const Model& mode
       const State state = displaced(model, lin, lin.modes[static_cast<std::size_t>(k)], 2 * std::numbers::pi * i / frames);
       evaluate(model.system, state, eq, dy);
       Drawing drawing = draw(model, drafting, state, eq);
-      drawing.forces.clear();  // those of a shape drawn large are none of the mechanism's
+      drawing.forces.clear();  // forces of the enlarged shape are not forces of the mechanism
       writer.add(drawing);
     }
     writer.finish();
@@ -86,7 +86,7 @@ int linearize(const Options& options) {
   scene = with_pieces(std::move(scene));
   const fs::path out = results_directory(options, "-linearize");
   require_place(out);
-  if (options.frames > 0) scene.output.frames = std::max(2, scene.output.frames);  // keeps what flexible bodies are drawn by
+  if (options.frames > 0) scene.output.frames = std::max(2, scene.output.frames);  // keeps the data needed to draw flexible bodies
   now_doing("building the model");
   const Model model = build(scene);
   now_doing("assembling the mechanism");

@@ -1,4 +1,4 @@
-// The command line. Thin: nothing here that a user of the library lacks.
+// The command line. Thin: a user of the library can do everything that it does.
 #include <CLI/CLI.hpp>
 #include <sys/resource.h>
 
@@ -42,7 +42,7 @@ constexpr const char* exit_codes =
     "  paraview worn/mechanism.pvd\n"
     "  pintle modes examples/modes_eye_bar.yaml --count 8\n";
 
-/// Of memory that the program has held at once.
+/// Largest memory that the program has used.
 long most_megabytes() {
   struct rusage used {};
   ::getrusage(RUSAGE_SELF, &used);
@@ -90,7 +90,7 @@ int carry_out(int argc, char** argv) {
   set_bounds(options);
   CLI::App* const command = app.get_subcommands().front();
   const std::string name = command->get_name();
-  if (name != "modes" && name != "static" && name != "mesh") hold_library_threads();  // a run is the same on any number of cores
+  if (name != "modes" && name != "static" && name != "mesh") hold_library_threads();  // results must not depend on the number of cores
   const int exit = commands.at(command)(options);
   if (std::cout.flush()) return exit;
   std::cerr << "pintle: the output could not be written to standard output\n";
@@ -104,7 +104,7 @@ void say_there_was_no_memory() {
                what_is_done(), most_megabytes(), where_results_are());
 }
 
-/// Where memory ends so wholly that not even an error can be handed on.
+/// For lack of memory so severe that not even an error can be reported normally.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr e = std::current_exception()) std::rethrow_exception(e);

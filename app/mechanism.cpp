@@ -40,7 +40,7 @@ std::string contacts_text(const ContactPair& pair, int first, const std::vector<
          (is_rigid(pair) ? "greatest impulse " + number(impulse, 4) + " N s" : "deepest " + number(deepest, 4) + " m");
 }
 
-/// The first and the last of what events have done.
+/// The first and last actions of events.
 void add_happenings(const Run& run, Rows& rows) {
   constexpr std::size_t most = 8;
   const auto& all = run.happenings;
@@ -65,7 +65,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     const Integral& integral = s.integrals[i];
     const double booked = run.integrals[i];
     const bool may_be_none = integral.account == Account::scheme || integral.account == Account::switching;
-    if (may_be_none && booked == 0) continue;  // it might have become implicit, or switched, and did not
+    if (may_be_none && booked == 0) continue;  // the scheme could have become implicit, or switches could have acted, but did not
     rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
@@ -100,7 +100,7 @@ Scene runnable(const Options& options) {
   return scene;
 }
 
-/// What `run` writes while it goes on, and at its end.
+/// Output of `run` during the run and at its end.
 class Recording {
  public:
   Recording(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly)
@@ -139,7 +139,7 @@ class Recording {
   static constexpr std::size_t least_room = std::size_t{1} << 16;
 
   void add(const SavedState& state) {
-    files_.flush();  // rows come first where the disk fills
+    files_.flush();  // write rows first, in case the disk becomes full
     std::ostringstream name;
     name << std::setw(5) << std::setfill('0') << ++saved_ << ".state";
     std::error_code error;
@@ -153,7 +153,7 @@ class Recording {
   const Model& model_;
   const Assembly& assembly_;
   RunFiles files_;
-  const std::string identity_;  ///< of what a saved state belongs to
+  const std::string identity_;  ///< identity to which saved states belong
   ReservedRoom kept_for_report_;
   std::optional<FrameWriter> writer_;
   std::optional<Drafting> drafting_;

@@ -25,7 +25,7 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return out;
 }
 
-/// Names of commands, all that are as near as the nearest; or those that there are.
+/// Names of commands: all that are equally near; or the existing ones.
 std::string meant(const std::string& word, const std::vector<std::string>& commands) {
   const std::string best = nearest(word, commands);
   std::vector<std::string> near;
@@ -36,7 +36,7 @@ std::string meant(const std::string& word, const std::vector<std::string>& comma
 
 std::string full_name(const std::string& command) { return command.starts_with("pintle") ? command : "pintle " + command; }
 
-/// The command that was named, or the program itself where it has but one.
+/// The command named, or the program itself if it has only one.
 const CLI::App* command_of(const CLI::App& app) {
   const auto named = app.get_subcommands();
   if (!named.empty()) return named.front();

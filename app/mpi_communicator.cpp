@@ -1,4 +1,4 @@
-// The one file that includes mpi.h.
+// The only file that includes mpi.h.
 #include "app/mpi_communicator.h"
 
 #include <stdlib.h>
@@ -16,14 +16,14 @@ int number_in(const char* name) {
   return text ? std::atoi(text) : 0;
 }
 
-/// Whether the launcher put all processes on this machine, as far as it says.
+/// Whether the launcher has put all processes on this machine, if it tells.
 bool on_one_machine() {
   if (const int all = number_in("OMPI_COMM_WORLD_SIZE"); all > 0) return number_in("OMPI_COMM_WORLD_LOCAL_SIZE") == all;
   return number_in("SLURM_STEP_NUM_NODES") == 1;
 }
 
-/// Processes of one machine talk through memory; Open MPI would have each of them listen on every network too. What the
-/// user has set stays.
+/// Processes on one machine communicate through memory; otherwise Open MPI would make each of them listen on every network. Settings of the
+/// user are kept.
 void keep_to_memory() {
   if (!on_one_machine()) return;
   ::setenv("OMPI_MCA_pml", "ob1", 0);

@@ -4,7 +4,7 @@
 
 namespace pintle::app {
 
-/// What the module `mpi` offers (meshes/module.h), the one that links MPI: a start does not pay for it.
+/// Interface of the module `mpi` (meshes/module.h), which links MPI, so that other runs need not load it.
 struct MpiTable {
   const char* version;
   Communicator* (*make)();  ///< starts MPI; deleting ends it

@@ -69,7 +69,7 @@ void print_rows(std::ostream& out, const Rows& rows) {
 fs::path study_directory(const Options& options, const std::string& suffix) {
   if (!options.out.empty()) return without_slash(options.out);
   fs::path name = fs::path(options.scene).stem();
-  if (name.extension() == ".pintle" && name != ".pintle") name = name.stem();  // crank.pintle.yaml is the scene crank
+  if (name.extension() == ".pintle" && name != ".pintle") name = name.stem();  // the scene of crank.pintle.yaml is named crank
   return fs::path("runs") / (name.string() + suffix);
 }
 

@@ -8,7 +8,7 @@
 
 #include "framework/scene/yaml/reader.h"
 
-/// What the commands share.
+/// Shared by the commands.
 namespace pintle::app {
 
 enum Exit { ok = 0, trouble = 1, bad_scene = 2, no_assembly = 3, run_failed = 4, ledger_over = 5, stopped = 6 };
@@ -18,23 +18,23 @@ struct Options {
   std::vector<std::string> set;
   bool quiet = false, json = false;
   int count = 6, frames = -1;
-  std::string restart, at;              ///< a saved state; an instant
-  bool at_rest = false;                 ///< about where the mechanism rests
-  int threads = 0;                      ///< of this process; 0: as many as cores
-  std::vector<std::string> quantities;  ///< of a trade-off, in words
+  std::string restart, at;              ///< a saved state; a time
+  bool at_rest = false;                 ///< about the equilibrium of the mechanism
+  int threads = 0;                      ///< of this process; 0: one per core
+  std::vector<std::string> quantities;  ///< of a trade-off study, in words
   std::string wanted_error, wanted_time, budget, markdown;
-  int repeats = 0;  ///< 0: as the study says
+  int repeats = 0;  ///< 0: as in the study
   bool trust_geo = false;
   std::vector<std::string> allowed;    ///< folders that scenes may read from
-  std::string mesh_time;               ///< of one body; empty: as the library says
+  std::string mesh_time;               ///< for one body; empty: the library's default
   double mesh_memory = 0;              ///< [GB]; 0: likewise
-  bool report = false;                 ///< of a run: make a page of its results
-  std::string against;                 ///< the column that plots have along x; empty: the time
-  double megabytes = 5;                ///< of that page, about
-  std::vector<std::string> passed_on;  ///< to the program beside this one that does it
+  bool report = false;                 ///< for a run: make a page of its results
+  std::string against;                 ///< the column on the x axis of plots; empty: the time
+  double megabytes = 5;                ///< approximate size of that page
+  std::vector<std::string> passed_on;  ///< to the separate program that executes it
 };
 
-// One a command; each returns its exit code.
+// One function per command; each returns its exit code.
 int check(const Options&);
 int run(const Options&);
 int modes(const Options&);
@@ -55,7 +55,7 @@ int fit(const Options&);
 int sensitivity(const Options&);
 int nonlinear(const Options&);
 
-/// What a scene's files may do and cost, from here on.  @throws SceneError  an option cannot be read
+/// Sets limits of access and cost for the files of a scene.  @throws SceneError  an option cannot be read
 void set_bounds(const Options&);
 Overrides overrides(const Options&);
 /// --at, a time ≥ 0 [s]. @throws SceneError  it cannot be read
@@ -63,10 +63,10 @@ double instant(const Options&);
 std::string number(double x, int digits = 6);
 using Rows = std::vector<std::pair<std::string, std::string>>;
 void print_rows(std::ostream&, const Rows&);  ///< the second column aligned
-/// runs/NAME, or runs/NAME-2, …: never over something that is there; `suffix` joins the scene's name.
+/// runs/NAME, or runs/NAME-2, …: never an existing one; `suffix` is added to the scene's name.
 std::filesystem::path results_directory(const Options&, const std::string& suffix = "");
-/// runs/NAME and the suffix, where the same command goes on from what is there.
+/// runs/NAME and the suffix, where the same command continues existing results.
 std::filesystem::path study_directory(const Options&, const std::string& suffix);
-int thread_count(const Options&);  ///< --threads, or as many as the machine has
+int thread_count(const Options&);  ///< --threads, or the number of cores
 
 }  // namespace pintle::app

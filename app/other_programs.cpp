@@ -1,4 +1,4 @@
-// Commands of programs beside this one, which become this process: they load libraries that the others do without.
+// Commands executed by separate programs, which replace this process: they load libraries that other commands do not need.
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,7 +11,7 @@ namespace pintle::app {
 
 namespace {
 
-/// @param packages  what the program is built with
+/// @param packages  needed to build the program
 int become(const std::string& program, const std::string& command, const Options& options, const std::string& packages) {
   const std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
   std::vector<std::string> words{"pintle " + command};

@@ -1,5 +1,5 @@
 // pintle-picture DIR OUT: a frame of a run's animation as a picture, or all of them as a film, for `pintle picture` and `pintle film`.
-// Reads what framework/drawing/vtk.h describes.
+// Reads the files described in framework/drawing/vtk.h.
 
 #include <algorithm>
 #include <charconv>
@@ -31,7 +31,7 @@ struct Choice {
   int frame = -1;                                          ///< counted from 0; from the end if negative
   double time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; the frame nearest to it
   std::string size;
-  double deformation = 0, speed = 0;  ///< 0: not said
+  double deformation = 0, speed = 0;  ///< 0: not given
 };
 
 const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& choice) {
@@ -53,7 +53,7 @@ void write_picture(const Choice& choice) {
   picture.canvas().write_png(choice.drawn.file);
 }
 
-/// @returns NaN: it is no number
+/// @returns NaN: not a number
 double number_of(const std::string& text) {
   double out = 0;
   return CLI::detail::lexical_cast(text, out) ? out : std::numeric_limits<double>::quiet_NaN();
@@ -125,7 +125,7 @@ void add_options(CLI::App& command, Choice& choice) {
       "Exit codes: see pintle --help\n");
 }
 
-/// The help of the one command leaves out what is for the other.
+/// Hides options in the help that are only for the other command.
 void tailor_help(CLI::App& command, const std::string& name) {
   const auto hide = [&](std::initializer_list<const char*> options) {
     for (const char* const option : options) command.get_option(option)->group("");
@@ -142,13 +142,13 @@ void tailor_help(CLI::App& command, const std::string& name) {
   }
 }
 
-/// Options given that mean nothing here would otherwise be passed over.
+/// Rejects options that have no effect here and would otherwise be ignored.
 void refuse_options(const CLI::App& command, std::initializer_list<const char*> names, const std::string& why) {
   for (const char* const name : names)
     if (command.count(name) > 0) throw std::invalid_argument(std::string(name) + " " + why);
 }
 
-/// " it has a [Pa], b [Pa]" of a body's file, empty where it cannot be read.
+/// " it has a [Pa], b [Pa]" for a body's file, empty if it cannot be read.
 std::string fields_in(const fs::path& file) {
   std::string names;
   try {
@@ -158,7 +158,7 @@ std::string fields_in(const fs::path& file) {
   return names;
 }
 
-/// @throws std::invalid_argument  what is given in place of a folder of results is a file that does not do
+/// @throws std::invalid_argument  the input is not a folder of results but an unsuitable file
 void judge_input(const CLI::App& command, const Choice& choice, bool film) {
   const fs::path& given = choice.drawn.directory;
   if (!fs::is_regular_file(given)) return;
@@ -202,7 +202,7 @@ int write(const CLI::App& command, Choice& choice) {
   return app::ok;
 }
 
-/// @throws std::invalid_argument  the file ends as what the other command makes
+/// @throws std::invalid_argument  the file's ending is for the other command
 void judge_ending(const std::string& name, const fs::path& file) {
   if (name == "pintle film" && file.extension() == ".png")
     throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
@@ -212,7 +212,7 @@ void judge_ending(const std::string& name, const fs::path& file) {
 
 }  // namespace
 
-/// argv[0] is "pintle film" or "pintle picture" if the program pintle started it.
+/// argv[0] is "pintle film" or "pintle picture" if it was started by the program pintle.
 int main(int argc, char** argv) {
   app::leave_failed_writes_to_us();
   app::end_on_signals();
@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app::end_of(command, e, argc, argv);
   }
-  vtkObject::GlobalWarningDisplayOff();  // what fails is said below, once
+  vtkObject::GlobalWarningDisplayOff();  // errors are reported below, once
   try {
     judge_ending(name, choice.drawn.file);
     return write(command, choice);

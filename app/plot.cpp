@@ -1,4 +1,4 @@
-// Columns of results as plots: in the terminal, or an SVG picture.
+// Plots of result columns: in the terminal, or as an SVG picture.
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -28,14 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A column of a table, with times of its own.
+/// A column of a table, with its own times.
 struct PlottedColumn {
   ColumnName name;
   std::vector<double> t, values;
   std::string heading() const { return name.name + (name.unit.empty() ? "" : " [" + name.unit + "]"); }
 };
 
-/// The tables of a folder that have a time in their first column.
+/// The tables in a folder whose first column is a time.
 std::vector<fs::path> tables_in(const fs::path& directory) {
   std::vector<fs::path> out;
   for (const char* const name : {"trajectory.csv", "ledger.csv"})
@@ -45,7 +45,7 @@ std::vector<fs::path> tables_in(const fs::path& directory) {
   return out;
 }
 
-/// Signals of the scene that a run is of; none where it cannot be read any more.
+/// Signals of the scene of a run; none if it can no longer be read.
 std::vector<std::string> signals_of(const fs::path& directory) {
   std::vector<std::string> out;
   try {
@@ -77,7 +77,7 @@ std::vector<std::string> signals_of(const fs::path& directory) {
                      "}` to the scene and run it again");
 }
 
-/// The table that has a column of this name, with its unit or without.
+/// The table with a column of this name, with or without its unit.
 fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
   std::vector<std::string> known;
   for (const fs::path& table : tables) {
@@ -92,7 +92,7 @@ fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
   refuse_column(tables.front().parent_path(), name, known);
 }
 
-/// @param evenly  at evenly spaced rows, so that columns share their times; else with the extremes of every stretch
+/// @param evenly  at evenly spaced rows, so that columns have the same times; otherwise with the extremes of each stretch
 PlottedColumn read_column(const fs::path& table, const std::string& name, bool evenly) {
   constexpr std::size_t points = 4000;
   const std::size_t columns = CsvReader(table).header().size();
@@ -109,7 +109,7 @@ PlottedColumn read_column(const fs::path& table, const std::string& name, bool e
   throw ResultsError(table.string() + ": has no column " + pintle::quoted(name));
 }
 
-/// A panel a column, for the terminal; a panel a unit, for a picture.
+/// One panel per column for the terminal; one per unit for a picture.
 std::vector<Panel> panels_of(const Options& options, bool one_each) {
   const std::vector<fs::path> tables = tables_in(without_slash(options.scene));
   std::string against = options.against.empty() ? "t" : options.against;

@@ -22,7 +22,7 @@ volatile std::sig_atomic_t asked_by = 0;
 using clock = std::chrono::steady_clock;
 std::atomic<const char*> activity = "starting";
 std::atomic<clock::rep> activity_begin = clock::now().time_since_epoch().count();
-std::string kept, kept_note;  // made beforehand: there may be no memory when they are wanted
+std::string kept, kept_note;  // prepared in advance, since memory may be lacking later
 
 const char* stop_words(int signal) {
   switch (signal) {
@@ -32,7 +32,7 @@ const char* stop_words(int signal) {
   }
 }
 
-/// Of what a signal handler may call.
+/// Uses only functions that a signal handler may call.
 void say(const char* words) {
   for (std::size_t left = std::strlen(words); left > 0;) {
     const ssize_t n = ::write(STDERR_FILENO, words, left);
@@ -42,7 +42,7 @@ void say(const char* words) {
 }
 
 extern "C" void end_at_once(int signal) {
-  if (::isatty(STDERR_FILENO)) say("\r\033[K");  // a line that says how far it is may stand there
+  if (::isatty(STDERR_FILENO)) say("\r\033[K");  // a progress line may be there
   say("pintle: "), say(stop_words(signal)), say(" while "), say(activity), say("; there are no results yet\n");
   constexpr int stopped = 6;
   ::_exit(stopped);
@@ -102,7 +102,7 @@ void keep_memory_in_reserve() {
 }
 
 void tell_of_crashes() {
-  static char stack[1 << 14];  // the crash may be one of the stack
+  static char stack[1 << 14];  // the crash may be a stack overflow
   stack_t own{};
   own.ss_sp = stack, own.ss_size = sizeof stack;
   ::sigaltstack(&own, nullptr);
@@ -112,7 +112,7 @@ void tell_of_crashes() {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler == SIG_DFL) ::sigaction(signal, &tells, nullptr);  // a sanitizer's, or a debugger's, stays
+    if (before.sa_handler == SIG_DFL) ::sigaction(signal, &tells, nullptr);  // the handler of a sanitizer or debugger is kept
   }
 }
 

@@ -5,46 +5,45 @@
 
 namespace pintle::app {
 
-/// At the start of the program: a write that fails by a broken pipe or the limit of a file's size is an error of that write.
+/// At the start of the program: makes a broken pipe or the file-size limit an error of the write concerned, instead of a signal.
 void leave_failed_writes_to_us();
 
-/// At the start of the program: Ctrl-C, a request to terminate and the end of the terminal end it with a word and exit code 6.
-/// What the caller had ignored stays ignored.
+/// At the start of the program: Ctrl-C, a request to terminate and the end of the terminal end it with a message and exit code 6. Signals
+/// ignored by the caller remain ignored.
 void end_on_signals();
 
-/// At the start of the program: a megabyte, given back where memory first does not suffice, so that libraries which do not look
-/// for that (JSON's and VTK's) get what they ask for and the program comes to a place that does.
+/// At the start of the program: reserves a megabyte that is released when memory first runs out, so that libraries that do not check for
+/// this (JSON's and VTK's) get what they request and the program reaches a place that does check.
 void keep_memory_in_reserve();
 
-/// At the start of the program: where a fault of it, or of a library that lacks memory, ends it, it says what it was doing and
-/// where what was computed is. It still ends by the signal.
+/// At the start of the program: if a fault of it, or of a library that lacks memory, ends it, it reports what it was doing and where the
+/// results are. It still ends by the signal.
 void tell_of_crashes();
 
-/// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program but are asked for by
-/// asked_to_stop; the second of them ends it. What the caller had ignored (nohup) stays ignored.
+/// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program, but are reported by asked_to_stop; the
+/// second one ends it. Signals ignored by the caller (nohup) remain ignored.
 void heed_signals();
 bool asked_to_stop();
-/// "stopped by the user (Ctrl-C)", or which signal it was.
+/// "stopped by the user (Ctrl-C)", or the signal received.
 std::string stopped_by();
 
-/// What the program does now, for whom memory ends: "building the model". Text that stays.
+/// Sets what the program is doing, for a message if memory runs out: "building the model". The text must stay valid.
 void now_doing(const char* what);
 const char* what_is_done();
-double doing_since();  ///< for how long it has done that [s]
-/// Where results are being written, for whatever ends the program. Empty: nowhere.
+double doing_since();  ///< duration of the present activity [s]
+/// Sets the folder of the results, for a message if the program ends early. Empty: none.
 void results_are_in(const std::string& folder);
-/// "; what was computed is in …", if it is there.
+/// "; what was computed is in …", if there is a folder.
 const char* where_results_are();
 
-/// A line of stderr that says how far a long command is, written over some times a second and gone at its end; nothing if it is to
-/// be quiet or stderr is no terminal. From the first one made on, Ctrl-C and a request to terminate ask to stop instead of ending
-/// the program.
+/// A progress line on stderr for a long command, updated several times a second and removed at its end; no line if quiet or stderr is not a
+/// terminal. Once the first one is created, Ctrl-C and a request to terminate ask to stop instead of ending the program.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
   ~StatusLine();
   StatusLine(const StatusLine&) = delete;
-  bool due() const;  ///< there is a line, and it has stood for a fifth of a second
+  bool due() const;  ///< there is a line, and it is at least a fifth of a second old
   void show(const std::string& text);
 
  private:
@@ -52,7 +51,7 @@ class StatusLine {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Of a run, by the time that it has reached.
+/// Progress of a run, by the time reached.
 class Progress {
  public:
   Progress(double until, bool quiet) : until_(until), line_(quiet) {}

@@ -4,7 +4,7 @@
 
 namespace pintle::app {
 
-/// Turns a folder of results into a page; an older page of that name is replaced. @throws as report_page, FileError
+/// Converts a folder of results into a page; replaces an older page of this name. @throws as report_page, FileError
 void write_report(const std::filesystem::path& directory, const std::filesystem::path& file, double megabytes);
 
 }  // namespace pintle::app

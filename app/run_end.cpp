@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the exception being handled. @throws std::bad_alloc  there is no memory to say it
+/// Message of the exception being handled. @throws std::bad_alloc  no memory for it
 std::string reason() {
   try {
     throw;
@@ -59,7 +59,7 @@ void tell_leftovers(const Options& options, const fs::path& out) {
 }
 
 void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {
-  heed_signals();  // what has been computed is written first
+  heed_signals();  // computed results are written first
   now_doing("writing the results");
   tell_leftovers(options, out);
   ResultsDirectory results(out);

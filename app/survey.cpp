@@ -12,7 +12,7 @@ namespace {
 
 bool stands_still(Part part) { return part == Part::guide || part == Part::hatch || part == Part::trace; }
 
-/// Takes in points as far as they are within a share of the box's size beside it.
+/// Extends the box to include points within a share of its size around it.
 void extend(Eigen::AlignedBox2d& world, const std::vector<Eigen::Vector2d>& points, double share) {
   Eigen::AlignedBox2d reach = world;
   const double margin = share * std::max(world.sizes().maxCoeff(), 1e-9);
@@ -21,14 +21,14 @@ void extend(Eigen::AlignedBox2d& world, const std::vector<Eigen::Vector2d>& poin
   for (const Eigen::Vector2d& r : points) world.extend(Eigen::Vector2d(r.cwiseMax(reach.min()).cwiseMin(reach.max())));
 }
 
-/// Whether a surface is as a bowl about things in a box: bent, around their middle, and not so large that they could not be seen in it.
+/// Whether a surface surrounds the things in a box like a bowl: curved, around their middle, and small enough for them to be visible in it.
 bool holds(const std::vector<Eigen::Vector2d>& surface, const Eigen::AlignedBox2d& things) {
-  constexpr double largest = 20, bent = 0.1;  // times the things; of the length of its chord
+  constexpr double largest = 20, bent = 0.1;  // relative to the things; to the length of its chord
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& r : surface) box.extend(r);
   if (!box.contains(things.center()) || box.sizes().maxCoeff() > largest * things.sizes().maxCoeff()) return false;
   const Eigen::Vector2d chord = surface.back() - surface.front();
-  if (chord.norm() < 0.01 * box.sizes().maxCoeff()) return true;  // it goes round
+  if (chord.norm() < 0.01 * box.sizes().maxCoeff()) return true;  // it is closed
   return std::ranges::any_of(surface, [&](const Eigen::Vector2d& r) {
     const Eigen::Vector2d d = r - surface.front();
     return std::abs(chord.x() * d.y() - chord.y() * d.x()) > bent * chord.squaredNorm();

@@ -1,4 +1,4 @@
-// pintle sweep: the cases of a study by threads and processes.
+// pintle sweep: the cases of a study, by worker threads and processes.
 #include "framework/study/sweep/sweep.h"
 
 #include <unistd.h>
@@ -48,7 +48,7 @@ std::string line(const SweepCount& c) {
   return s.str();
 }
 
-/// A line on the terminal; where there is none, a line every half minute.
+/// A line on the terminal; without a terminal, a line every half minute.
 class SweepProgress {
  public:
   explicit SweepProgress(bool quiet) : logs_(!quiet && !::isatty(STDERR_FILENO)), line_(quiet) {}
@@ -92,7 +92,7 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
 }
 
-/// There are cases, and each was refused or failed.
+/// There are cases, and each was rejected or failed.
 bool none_ran(const SweepEnd& end) {
   const auto ran = [](const Row& row) { return row.status == "finished" || row.status == status_text(Status::ledger_over_bound); };
   return !end.rows.empty() && std::ranges::none_of(end.rows, ran);
@@ -140,7 +140,7 @@ int sweep(const Options& options) {
   try {
     what = read_sweep(options.scene, overrides(options));
   } catch (...) {
-    // What stops one process mostly stops all: one of them says so.
+    // What stops one process usually stops all: only one of them reports it.
     if (together && leads)
       reject_all(*together);
     else if (together && rejected(*together))

@@ -1,4 +1,4 @@
-// pintle tradeoff: what accuracy costs, for one scene and the quantities that matter to its user.
+// pintle tradeoff: the cost of accuracy, for one scene and the quantities that matter to its user.
 #include "framework/study/tradeoff/tradeoff.h"
 
 #include <algorithm>

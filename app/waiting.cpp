@@ -28,10 +28,10 @@ Waiting::Waiting(bool quiet) {
   if (quiet || !::isatty(STDERR_FILENO)) return;
   sigset_t all, before;
   sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are for the thread that computes
+  pthread_sigmask(SIG_SETMASK, &all, &before);  // the computing thread handles signals
   try {
     shower_ = std::thread([this] { show(); });
-  } catch (const std::system_error&) {  // no thread, no line
+  } catch (const std::system_error&) {  // without a thread there is no line
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }

@@ -6,8 +6,8 @@
 
 namespace pintle::app {
 
-/// From a second after its construction on a line of stderr says what the program does, since when and, where the computation tells
-/// how far it is, how long it will still take; nothing if it is to be quiet or stderr is no terminal. The line goes at its end.
+/// From a second after construction, a line on stderr says what the program is doing, since when and, if the computation reports its
+/// progress, how long it will still take; no line if quiet or stderr is not a terminal. The line is removed at its end.
 class Waiting {
  public:
   explicit Waiting(bool quiet);

@@ -4,8 +4,8 @@
 
 namespace pintle {
 
-/// Friction by bristles that the sliding speed v bends: a law with internal states, so that it holds like a spring before it slides. All is
-/// told per normal force. Theory and sources: docs/theory/friction.md.
+/// Friction by bristles that the sliding speed v bends: a law with internal states, which holds like a spring before it slides. All
+/// quantities are per unit of normal force. Theory and sources: docs/theory/friction.md.
 
 inline constexpr int most_bristle_states = 2;
 
@@ -21,11 +21,11 @@ struct LuGre {
   double damping_speed = 1e-3;  ///< v_d [m/s], > 0; infinite: σ1 at all speeds
 };
 
-/// With s = exp(−(v/v_s)²), how much the surfaces stick:
+/// With s = exp(−(v/v_s)²), the degree to which the surfaces stick:
 ///   ż = s v + (1 − s)(μ sgn v − σ0 z)/σ1,   f = clip(σ0 z + σ1 ż, μ + (μ_s − μ) d) + σ2 v,
 ///   ḋ = (s − d)/τ while d grows, (s − d) σ0/σ1 while it falls.
-/// States: the deflection z [m] and the dwell d, 0 to 1, which is how far what sticks has come to hold more. Source: Gonthier, McPhee, Lange and
-/// Piedboeuf (2004); their sign function is smoothed, which in the plane 1 − s does.
+/// States: the deflection z [m] and the dwell state d, 0 to 1, which describes the growth of the holding force during sticking. Source:
+/// Gonthier, McPhee, Lange and Piedboeuf (2004); their sign function is smoothed, which 1 − s does in the plane.
 struct Gonthier {
   double mu = 0;           ///< while sliding, > 0, –
   double mu_static = 0;    ///< after long rest, ≥ mu, –
@@ -36,22 +36,22 @@ struct Gonthier {
   double dwell = 1;        ///< τ [s], > 0
 };
 
-/// Per normal force, with its derivatives in v and in the states x. Nothing of it depends on the normal force.
+/// Per unit of normal force, with derivatives with respect to v and to the states x. Independent of the normal force.
 struct BristleForce {
   using States = std::array<double, most_bristle_states>;
-  double force = 0;    ///< along the sliding direction; opposes v where the bristles are not bent against it, –
+  double force = 0;    ///< along the sliding direction; opposes v unless the bristles are bent the other way, –
   double d_speed = 0;  ///< [s/m]
   States d_state{};
   States rate{};  ///< ẋ
   States rate_d_speed{};
-  std::array<States, most_bristle_states> rate_d_state{};  ///< [i][j]: of ẋᵢ in xⱼ
+  std::array<States, most_bristle_states> rate_d_state{};  ///< [i][j]: of ẋᵢ with respect to xⱼ
 };
 
 /// @param v  signed sliding speed [m/s]   @param x  as many states as the law has. Cannot fail.
 BristleForce bend(const LuGre&, double v, const double* x);
 BristleForce bend(const Gonthier&, double v, const double* x);
 
-/// |f|/N where the bristles slide steadily, their states at rest, and its derivative in |v|.
+/// |f|/N during steady sliding, with constant states, and its derivative with respect to |v|.
 struct SteadyFriction {
   double coefficient = 0;  ///< –
   double slope = 0;        ///< [s/m]
@@ -59,10 +59,10 @@ struct SteadyFriction {
 SteadyFriction steady_friction(const LuGre&, double speed);
 SteadyFriction steady_friction(const Gonthier&, double speed);
 
-/// σ1 under which what its own weight presses, and bristles alone hold, comes to rest without ringing: 2 √(σ0/g), g = 9.81 m/s² [s/m].
+/// The σ1 for critical damping of a body that its own weight presses on and only bristles hold: 2 √(σ0/g), g = 9.81 m/s² [s/m].
 double critical_damping(double stiffness);
-/// The largest v_d with which the damping of unbent bristles is at most μ at any speed: √(2e) μ/σ1 [m/s]. A contact that begins while it slides
-/// is met by no more than that. Four times as much would still be passive.
+/// The largest v_d for which the damping of undeflected bristles is at most μ at any speed: √(2e) μ/σ1 [m/s]. This limits the friction when
+/// a contact begins during sliding. Up to four times this value would still be passive.
 double gentle_damping_speed(double mu, double damping);
 
 }  // namespace pintle

@@ -10,7 +10,7 @@
 namespace pintle {
 
 /// z ≥ 0, M z + q ≥ 0, zᵀ(M z + q) = 0, by Lemke's method [CottlePangStone1992, 4.4].
-/// @returns nothing where it ends on a ray: there is no solution, or none that it finds
+/// @returns nothing where it ends on a ray: there is no solution, or the method does not find one
 std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q);
 
 /// A rigid contact among others: its normal force N ≥ 0 and its friction T, |T| ≤ μ(N + preload), as indices of the unknowns.
@@ -18,19 +18,19 @@ struct UnilateralContact {
   int normal;            ///< –
   int tangent = -1;      ///< −1: it has no friction, or slides
   double mu = 0;         ///< –
-  double preload = 0;    ///< of the normal force, that the unknowns come on top of; it counts for friction alone
-  int sliding = -1;      ///< of a contact that slides, the column of its friction, which is −direction μN …
+  double preload = 0;    ///< part of the normal force outside the unknowns; it counts only for friction
+  int sliding = -1;      ///< for a contact that slides, the column of its friction, which is −direction μN …
   double direction = 0;  ///< … −1 or 1
 };
 
-/// Forces, or impulses, x of contacts under which their opening g = W x + c meets 0 ≤ N ⊥ g ≥ 0, and their slip, the rows of
-/// `tangent`, is 0 where |T| is less than μN and else opposes T. One unit for all of x, one for all of W x: docs/theory/impact.md.
-/// @param W  responses, symmetric positive semidefinite   @param c  without the forces
-/// @returns nothing where none is found, as in Painlevé's situations
+/// Forces, or impulses, x of contacts for which their opening g = W x + c satisfies 0 ≤ N ⊥ g ≥ 0, and their slip, the rows of `tangent`,
+/// is 0 where |T| is less than μN and otherwise opposes T. All entries of x have the same unit, as do all of W x: docs/theory/impact.md.
+/// @param W  responses, symmetric positive semidefinite   @param c  opening and slip without the forces
+/// @returns nothing where none is found, as in Painlevé's paradox
 std::optional<Eigen::VectorXd> unilateral_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c);
 
-/// Of forces x + Z y of contacts that hold, all of which do the same to the motion: N ≥ 0, |T| ≤ μN, and |y| least; where none are so, those
-/// that are least beyond it. Continuous in x and Z. @param Z  independent columns
+/// Among forces x + Z y of holding contacts, which all have the same effect on the motion, those with N ≥ 0, |T| ≤ μN and the least |y|;
+/// where none satisfy this, those that violate it least. Continuous in x and Z. @param Z  independent columns
 Eigen::VectorXd admissible_forces(std::span<const UnilateralContact>, const Eigen::VectorXd& x, const Eigen::MatrixXd& Z);
 
 }  // namespace pintle

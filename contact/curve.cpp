@@ -28,7 +28,7 @@ void solve_tridiagonal(const std::vector<double>& lower, std::vector<double> dia
   for (Eigen::Index i = n - 2; i >= 0; --i) right.row(i) = (right.row(i) - of(upper, i) * right.row(i + 1)) / of(diagonal, i);
 }
 
-// Second derivatives at the points of a periodic spline: the row that closes is an update of rank one (Sherman and Morrison).
+// Second derivatives at the points of a periodic spline: the closing row is a rank-one update (Sherman and Morrison).
 std::vector<Vector2d> periodic_bends(const std::vector<double>& h, const std::vector<Vector2d>& slope) {
   const std::size_t n = h.size();
   std::vector<double> lower(n), diagonal(n);
@@ -54,7 +54,7 @@ std::vector<Vector2d> periodic_bends(const std::vector<double>& h, const std::ve
   return out;
 }
 
-// Of an open one, the third derivative goes on over its second and last but one point.
+// For an open spline, the third derivative is continuous at its second and last but one points.
 std::vector<Vector2d> open_bends(const std::vector<double>& h, const std::vector<Vector2d>& slope) {
   const std::size_t n = h.size() - 1;  // inner points
   std::vector<double> lower(n), diagonal(n), upper(n);
@@ -102,7 +102,7 @@ CurvePoint SmoothCurve::at(double s) const {
   return {c.p + t * (c.d + t / 2 * (c.m + t / 3 * c.j)), first / speed, outer(first, second) / (speed * speed * speed), speed};
 }
 
-// First by second derivative is d × m + (d × j) t + ½ (m × j) t².
+// The cross product of first and second derivative is d × m + (d × j) t + ½ (m × j) t².
 std::vector<double> SmoothCurve::inflections() const {
   constexpr double at_knot = 1e-6;  // of a segment
   std::vector<double> out;
@@ -113,7 +113,7 @@ std::vector<double> SmoothCurve::inflections() const {
     if (!(root > 0)) continue;
     const double w = -(q + std::copysign(std::sqrt(root), q)) / 2;
     std::vector<double> here;
-    for (const double t : {p / w, w / r})  // at a knot it may be found on either side
+    for (const double t : {p / w, w / r})  // at a knot it may be found from either side
       if (t > -at_knot * h && t < (1 + at_knot) * h) here.push_back(knots_[i] + std::clamp(t, 0.0, h));
     std::ranges::sort(here);
     out.insert(out.end(), here.begin(), here.end());
@@ -167,7 +167,7 @@ std::vector<double> CurveSpan::numbers() const {
 
 namespace {
 
-// Left turn along a curve that bends one way between the two: no step of a sixteenth of a segment turns back.
+// Left turn along a curve that bends in one direction between the two: no step of a sixteenth of a segment turns back.
 struct Turning {
   const SmoothCurve& curve;
   std::vector<double> s, turn;
@@ -183,7 +183,7 @@ struct Turning {
         s.push_back(next);
       }
   }
-  // Where this part of the whole turn is behind.
+  // The parameter at which this part of the whole turn is reached.
   double at_part(double part) const {
     const double wanted = part * turn.back();
     std::size_t i = 1;
@@ -196,7 +196,7 @@ struct Turning {
 }  // namespace
 
 std::vector<CurveSpan> spans_of(const std::shared_ptr<const SmoothCurve>& curve) {
-  constexpr double straight = 1e-6;  // [rad]; so little of a bend is rounding of its points
+  constexpr double straight = 1e-6;  // [rad]; a smaller bend is rounding of its points
   std::vector<double> cuts{0};
   for (const double s : curve->inflections())
     if (std::abs(Turning(*curve, cuts.back(), s).turn.back()) > straight) cuts.push_back(s);

@@ -10,28 +10,28 @@
 
 namespace pintle {
 
-/// A point of a curve that has the material at its left.
+/// A point of a curve with the material to its left.
 struct CurvePoint {
   Eigen::Vector2d at;                                                 ///< [m]
-  Eigen::Vector2d along;                                              ///< unit, the way the curve goes
+  Eigen::Vector2d along;                                              ///< unit vector in the direction of the curve
   double curvature;                                                   ///< > 0 turning left: the surface is round; < 0: hollow [1/m]
   double speed;                                                       ///< d(length)/d(parameter), –
   Eigen::Vector2d normal() const { return {along.y(), -along.x()}; }  ///< out of the material
 };
 
-/// The cubic spline through points, of continuous curvature; its parameter is the length of the chords [m]. A closed one is periodic,
-/// an open one has no knot at its second and last but one point. Between points h apart it is O(h⁴) from a smooth curve, its
-/// direction O(h³), its curvature O(h²): de Boor, A Practical Guide to Splines (1978), ch. V.
+/// The cubic spline through points, with continuous curvature; its parameter is the length of the chords [m]. A closed one is periodic; an
+/// open one has no knot at its second and last but one points. With points h apart, its error relative to a smooth curve is O(h⁴), that of
+/// its direction O(h³), of its curvature O(h²): de Boor, A Practical Guide to Splines (1978), ch. V.
 class SmoothCurve {
  public:
-  /// @pre three points or more, four or more of an open curve; neighbours apart
+  /// @pre three points or more, four or more for an open curve; neighbouring points differ
   SmoothCurve(std::vector<Eigen::Vector2d> points, bool closed);
   /// @param s  from 0 to length() [m]
   CurvePoint at(double s) const;
   double length() const { return knots_.back(); }              ///< of all chords [m]
-  const std::vector<double>& knots() const { return knots_; }  ///< the parameter at each point, of a closed curve at its end too
+  const std::vector<double>& knots() const { return knots_; }  ///< the parameter at each point, for a closed curve also at its end
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
-  /// Where the curvature changes its sign, rising.
+  /// Parameters at which the curvature changes its sign, in rising order.
   std::vector<double> inflections() const;
 
  private:
@@ -43,20 +43,20 @@ class SmoothCurve {
   std::vector<Cubic> cubics_;
 };
 
-/// A part of a curve that bends one way and turns by an eighth of a turn at most. Beyond its ends it goes on along the circles of
-/// curvature there by at most another eighth, and then straight.
+/// A part of a curve that bends in one direction and turns by at most an eighth of a turn. Beyond its ends it continues along the circles
+/// of curvature there by at most another eighth, and then straight.
 class CurveSpan {
  public:
   CurveSpan(std::shared_ptr<const SmoothCurve>, double begin, double end);
-  CurvePoint at(double s) const;  ///< of any parameter
+  CurvePoint at(double s) const;  ///< for any parameter
   double begin() const { return begin_; }
   double end() const { return end_; }
   double first_bend() const { return first_bend_; }                     ///< parameter before which it is straight [m]
   double last_bend() const { return last_bend_; }                       ///< … and after which [m]
   double turn() const { return turn_; }                                 ///< to the left, from begin to end [rad]
-  double least_radius() const { return least_radius_; }                 ///< of curvature, at most the curve's length [m]
-  const std::vector<double>& knots() const { return curve_->knots(); }  ///< of the whole curve
-  /// All that it is made of.
+  double least_radius() const { return least_radius_; }                 ///< least radius of curvature, at most the curve's length [m]
+  const std::vector<double>& knots() const { return curve_->knots(); }  ///< of the complete curve
+  /// All numbers that define it.
   std::vector<double> numbers() const;
 
  private:
@@ -66,7 +66,7 @@ class CurveSpan {
   CurvePoint at_begin_, at_end_;
 };
 
-/// The whole of a curve in spans, in order.
+/// The complete curve divided into spans, in order.
 std::vector<CurveSpan> spans_of(const std::shared_ptr<const SmoothCurve>&);
 
 }  // namespace pintle

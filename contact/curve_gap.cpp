@@ -13,7 +13,8 @@ using Eigen::Vector2d;
 struct Sloping {
   double value, slope;
 };
-// The zero of a function that is above 0 at `low` and below 0 at `high`: Newton's steps, halved where they leave the bracket.
+// The zero of a function that is positive at `low` and negative at `high`: Newton's steps, replaced by bisection where they leave the
+// bracket.
 template <class F>
 double zero_between(const F& f, double low, double high) {
   double s = (low + high) / 2, step = high - low;
@@ -30,7 +31,7 @@ double zero_between(const F& f, double low, double high) {
   return s;
 }
 
-// The parameter where a function that falls along the span is 0; beyond the bends at its ends the span is straight, `f` linear.
+// The parameter at which a function that decreases along the span is 0; beyond its bent part the span is straight and `f` linear.
 template <class F>
 double foot(const CurveSpan& span, const F& f) {
   const double low = span.first_bend(), high = span.last_bend();
@@ -42,7 +43,7 @@ double foot(const CurveSpan& span, const F& f) {
   return end + (back ? first.value : last.value) / speed;
 }
 
-// Nearest to a point; h is its height over the surface.
+// Parameter nearest to a point; h is the point's height above the surface.
 double foot_under(const CurveSpan& span, const Vector2d& point) {
   return foot(span, [&](double s) {
     const CurvePoint p = span.at(s);
@@ -53,9 +54,9 @@ double foot_under(const CurveSpan& span, const Vector2d& point) {
 
 struct Facing {
   double s;
-  bool corner;  ///< all its directions lie to one side: its end is touched as a corner
+  bool corner;  ///< all its directions are on one side: its end is touched as a corner
 };
-// Where its normal is m; only round spans may be asked.
+// Parameter at which its normal is m; only for round spans.
 Facing foot_facing(const CurveSpan& span, const Vector2d& m) {
   const auto off = [&](double s) {
     const CurvePoint p = span.at(s);
@@ -71,7 +72,7 @@ Facing foot_facing(const CurveSpan& span, const Vector2d& m) {
   return {back ? low : high, true};
 }
 
-// The parameter of a where it faces b, a round span, both in a's axes turned by `turn` from b's and `from` b's point.
+// The parameter of a where it faces b, a round span, both in a's axes, which are rotated by `turn` relative to b's; `from` is b's point.
 double foot_against(const CurveSpan& a, const CurveSpan& b, const Vector2d& from, double turn) {
   return foot(a, [&](double s) {
     const CurvePoint p = a.at(s);
@@ -97,14 +98,14 @@ Vector2d towards_the_line(const Piece& line, const MovingPoint& of, const Moving
   const double angle = of.angle + line.normal - curve.angle;
   return {-std::cos(angle), -std::sin(angle)};
 }
-// The touched parameter of one curve, in its own axes, the other piece no curve.
+// The parameter of the contact point on a curve, in its own axes, if the other piece is not a curve.
 Facing foot_on(const CurveSpan& span, const MovingPoint& by, const Piece& other, const MovingPoint& of) {
   if (other.straight) return foot_facing(span, towards_the_line(other, of, by));
   return {foot_under(span, turned(-by.angle, of.r + turned(of.angle, other.centre) - by.r)), false};
 }
 Feet feet_of(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
   Feet out;
-  if (pair.a.curve && pair.b.curve) {  // the round one is asked for its directions
+  if (pair.a.curve && pair.b.curve) {  // the round one is evaluated by direction
     const bool swapped = is_hollow(pair.b);
     const CurveSpan &first = swapped ? *pair.b.curve : *pair.a.curve, &second = swapped ? *pair.a.curve : *pair.b.curve;
     const MovingPoint &p = swapped ? b : a, &q = swapped ? a : b;
@@ -161,7 +162,7 @@ Rolling rolling(const PiecePair& pair, const Gap& gap) {
   const bool a = follows(pair.a, gap.on_a), b = follows(pair.b, gap.on_b);
   const double k_a = a ? gap.on_a.curvature : 0, k_b = b ? gap.on_b.curvature : 0;
   Rolling out;
-  if ((a || pair.a.straight) && (b || pair.b.straight)) {  // two that turn n, by curvature
+  if ((a || pair.a.straight) && (b || pair.b.straight)) {  // both rotate n, in proportion to their curvatures
     const double whole = k_a + k_b - gap.depth * k_a * k_b;
     out.turning = {-k_a * k_b / whole, k_b / whole, k_a / whole};
     if (a) out.on_a = {-k_b / whole, (gap.depth * k_b - 1) / whole, 1 / whole};
@@ -172,7 +173,7 @@ Rolling rolling(const PiecePair& pair, const Gap& gap) {
     (pair.a.straight ? out.turning.a : out.turning.b) = 1;
     return out;
   }
-  const double far = gap.n.dot(gap.e), k = a ? k_a : k_b, whole = 1 - k * far;  // a curve and something round
+  const double far = gap.n.dot(gap.e), k = a ? k_a : k_b, whole = 1 - k * far;  // a curve and a round piece
   out.turning.across = -k / whole;
   (a ? out.turning.a : out.turning.b) = 1 / whole;
   const double side = a ? 1 : -1;

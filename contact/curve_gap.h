@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// Of pairs with a curve: `evaluate` and `places`. docs/theory/contact.md, Curves
+/// `evaluate` and `places` for pairs with a curve. docs/theory/contact.md, Curves
 Gap evaluate_curves(const PiecePair&, const MovingPoint& a, const MovingPoint& b);
 std::array<PlaceOn, 2> places_on_curves(const PiecePair&, const Gap&, const MovingPoint& a, const MovingPoint& b);
 

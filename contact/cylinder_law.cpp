@@ -14,7 +14,7 @@ using std::numbers::pi;
 constexpr std::string_view wide =
     "the contact spans more than 30 degrees to either side, where half-spaces no longer approximate the bodies; use a table";
 
-/// ΔR, the difference of the radii of pin and hole or the sum of two round ones, and R = R_i R_j/ΔR [m].
+/// ΔR, the difference of the radii of pin and hole or the sum of those of two round cylinders, and R = R_i R_j/ΔR [m].
 double difference(const Cylinders& c) { return std::abs(c.a + c.b); }
 double reduced_radius(const Cylinders& c) { return std::abs(c.a * c.b) / difference(c); }
 
@@ -26,7 +26,7 @@ double force_of_half_angle(const Cylinders& c) {
 
 double depth_under(const LogarithmicForce& law, double force) { return force / law.S * std::log(law.G / force); }
 
-/// δ = F/(πE*L) [ln(4πE*L ΔR/F) + C], of half-spaces; the authors differ in how far beneath the surface the depth is measured, C.
+/// δ = F/(πE*L) [ln(4πE*L ΔR/F) + C], for half-spaces; the authors differ in the depth below the surface to which δ refers, that is in C.
 DampedLaw of_half_spaces(const Cylinders& c, double C) {
   const double S = pi * c.modulus * c.length;
   const LogarithmicForce line{S, 4 * S * difference(c) * std::exp(C)};
@@ -35,13 +35,13 @@ DampedLaw of_half_spaces(const Cylinders& c, double C) {
 
 DampedLaw johnson(const Cylinders& c) { return of_half_spaces(c, -1); }
 DampedLaw esdu(const Cylinders& c) { return of_half_spaces(c, 1); }
-/// δ = F/(πE*L) [⅔ + ln(4R_i/b) + ln(4R_j/b)], b the whole width, which he rounds to 1.60 √(2 F R/(E*L)).
+/// δ = F/(πE*L) [⅔ + ln(4R_i/b) + ln(4R_j/b)], where b is the full width, rounded in the source to 1.60 √(2 F R/(E*L)).
 DampedLaw radzimovsky(const Cylinders& c) {
   constexpr double width = 1.6;
   return of_half_spaces(c, 2.0 / 3 + std::log(2 / (pi * width * width)));
 }
 
-/// δ = F/(πE*L) [ln(πE*L³/(F R)) + 1]: the length takes the place of the radii. Half-width up to the length.
+/// δ = F/(πE*L) [ln(πE*L³/(F R)) + 1]: the length replaces the radii. Valid for half-widths up to the length.
 DampedLaw goldsmith(const Cylinders& c) {
   const double S = pi * c.modulus * c.length, R = reduced_radius(c), L = c.length;
   const LogarithmicForce line{S, S * L * L / R * std::numbers::e};
@@ -69,7 +69,7 @@ DampedLaw pereira(const Cylinders& c) {
   return {.elastic = power, .deepest = std::pow(force_of_half_angle(c) / power.k, 1 / n), .limit = wide};
 }
 
-/// p = K · local depth: of a pin in a hole with the arcs as they are, else of parabolas, F = (4√2/3) K L √R δ^1.5.
+/// p = K · local depth: for a pin in a hole with exact arcs, otherwise with parabolas, F = (4√2/3) K L √R δ^1.5.
 DampedLaw winkler(const Cylinders& c) {
   constexpr double most_strain = 0.1, small = 0.1;
   const double stiffness = c.foundation * c.length, smaller = std::min(std::abs(c.a), std::abs(c.b)), strained = most_strain * c.layer;

@@ -13,20 +13,20 @@ struct Cylinders {
   double a, b;     ///< radii; that of a hole < 0 [m]
   double length;   ///< of the line [m]
   double modulus;  ///< E*, 1/E* = Σ(1 − ν²)/E [Pa]
-  // Of an elastic layer between two that are rigid:
+  // For an elastic layer between two rigid cylinders:
   double foundation = 0;                                   ///< pressure over local depth [N/m³]
-  double layer = std::numeric_limits<double>::infinity();  ///< thickness; infinite: not known [m]
+  double layer = std::numeric_limits<double>::infinity();  ///< thickness; infinite: unknown [m]
   bool internal() const { return a < 0 || b < 0; }
 };
 
-/// A published force of cylinders.
+/// A published force law of cylinders.
 struct CylinderLaw {
-  std::string_view name;                   ///< as a scene file says it
-  bool external;                           ///< its author gives it for two round cylinders too
-  double least_clearance, most_clearance;  ///< of a pin in a hole, for which its author gives constants [m]
+  std::string_view name;                   ///< name in scene files
+  bool external;                           ///< its author gives it for two round cylinders as well
+  double least_clearance, most_clearance;  ///< clearances of a pin in a hole for which its author gives constants [m]
   DampedLaw (*law)(const Cylinders&);      ///< without damping
   std::string_view source;                 ///< author and year
-  bool of_a_layer = false;                 ///< an elastic layer yields, which may lie on a flat one too; false: both bodies do
+  bool of_a_layer = false;                 ///< deformation of an elastic layer, which may also lie on a flat surface; false: of both bodies
 };
 /// Pressure over compression of a layer bonded to a rigid body, (1 − ν)E/((1 + ν)(1 − 2ν)h) [N/m³]. @pre poisson < ½
 double foundation_modulus(double young, double poisson, double thickness);

@@ -15,8 +15,8 @@ ElasticForce elastic(const PowerForce& law, double depth) {
   return {force, force * depth / (law.n + 1), law.n * force / depth};
 }
 
-/// The root u ≥ 2 of u − ln u = L. The function is convex, so Newton comes down to the root from above; the step that follows one of
-/// 1e-8 would be rounding.
+/// The root u ≥ 2 of u − ln u = L. The function is convex, so Newton converges to the root from above; after a step of 1e-8 the next would
+/// be rounding.
 double logarithm_of_force(double L) {
   double u = L + std::log(L + std::log(L) + 1);
   for (;;) {
@@ -37,7 +37,7 @@ ElasticForce elastic(const LogarithmicForce& law, double depth) {
   return {force, force * force * (2 * u - 1) / (4 * law.S), law.S / (u - 1)};
 }
 
-// With y = δ/(ΔR + δ): ∫F dδ = ⅖ Fδ ₂F₁(½, 1; 7/2; y), for y above some tenths in closed form.
+// With y = δ/(ΔR + δ): ∫F dδ = ⅖ Fδ ₂F₁(½, 1; 7/2; y), in closed form for y above a few tenths.
 ElasticForce elastic(const WideningForce& law, double depth) {
   constexpr double series_below = 0.2;
   const double c = law.clearance, y = depth / (c + depth), force = law.k * depth * std::sqrt(y);
@@ -54,8 +54,8 @@ ElasticForce elastic(const WideningForce& law, double depth) {
   return {force, 0.4 * force * depth * sum, stiffness};
 }
 
-// With w = 2φ₀: F = ½ k e (w − sin w), ∫F dδ = ¼ k e² (w (2 + cos w) − 3 sin w), dF/dδ = ½ k (w + sin w); of small w by the series
-// of both brackets, Σ (−1)ⁿ⁺¹ w²ⁿ⁺¹/(2n + 1)! and Σ (−1)ⁿ (2n − 2) w²ⁿ⁺¹/(2n + 1)!.
+// With w = 2φ₀: F = ½ k e (w − sin w), ∫F dδ = ¼ k e² (w (2 + cos w) − 3 sin w), dF/dδ = ½ k (w + sin w); for small w by the series of both
+// brackets, Σ (−1)ⁿ⁺¹ w²ⁿ⁺¹/(2n + 1)! and Σ (−1)ⁿ (2n − 2) w²ⁿ⁺¹/(2n + 1)!.
 ElasticForce elastic(const FoundationForce& law, double depth) {
   constexpr double series_below = 2;
   const double e = law.clearance + depth, w = 2 * half_angle(law, depth);
@@ -71,7 +71,7 @@ ElasticForce elastic(const FoundationForce& law, double depth) {
   return {law.k / 2 * e * segment, law.k / 4 * e * e * moment, law.k / 2 * (w + std::sin(w))};
 }
 
-// Of the cubic between two knots in t, 0 to 1: force f + h t (d + t (c + t b)).
+// Cubic between two knots in t, 0 to 1: force f + h t (d + t (c + t b)).
 ElasticForce elastic(const ForceTable& law, double depth) {
   const auto above = std::upper_bound(law.knots.begin() + 1, law.knots.end(), depth,
                                       [](double x, const ForceTable::Knot& knot) { return x < knot.depth; });
@@ -89,7 +89,8 @@ double exponent_at_touch(const ElasticLaw& law) {
   return std::holds_alternative<WideningForce>(law) || std::holds_alternative<FoundationForce>(law) ? 1.5 : 1;
 }
 
-/// Slope at an end whose next two intervals are h0, h1 long with the secants s0, s1: of the parabola, as far as the cubic then rises.
+/// Slope at an end whose next two intervals have lengths h0, h1 and secant slopes s0, s1: that of the parabola, limited so that the cubic
+/// rises.
 double end_slope(double h0, double h1, double s0, double s1) { return std::clamp(((2 * h0 + h1) * s0 - h0 * s1) / (h0 + h1), 0.0, 3 * s0); }
 
 }  // namespace
@@ -145,8 +146,8 @@ NormalForce evaluate(const DampedLaw& law, const Approach& at) {
 
 namespace {
 
-// The same questions of a law without power. Newton in ln δ, ln E, where d ln E/d ln δ = Fδ/E is nearly constant; halved where it
-// would leave what is known to hold the root.
+// The same functions for a law that is not a power. Newton's method in ln δ, ln E, where d ln E/d ln δ = Fδ/E is nearly constant; bisection
+// where a step would leave the bracket of the root.
 double depth_storing(const DampedLaw& law, double energy) {
   if (!(energy > 0)) return 0;
   double low = 0, high = std::numeric_limits<double>::infinity();

@@ -7,11 +7,11 @@
 
 #include "contact/normal_law.h"
 
-/// Normal laws whose elastic force is no stiffness times a power: conforming cylinders and tables.
+/// Normal laws whose elastic force is not a stiffness times a power: conforming cylinders and tables.
 /// Theory: docs/theory/contact.md.
 namespace pintle {
 
-/// What a law does without loss at a depth > 0.
+/// Elastic response of a law at a depth > 0.
 struct ElasticForce {
   double force = 0;      ///< [N]
   double stored = 0;     ///< its integral over the depth [J]
@@ -23,7 +23,7 @@ struct PowerForce {
   double k;  ///< [N/mⁿ]
   double n;
 };
-/// δ = (F/S) ln(G/F), the force of a line contact, up to u = ln(G/F) = 2; from there on straight, with the slope S that it has there.
+/// δ = (F/S) ln(G/F), the force of a line contact, for u = ln(G/F) ≥ 2; beyond that linear, with the slope S at u = 2.
 struct LogarithmicForce {
   double S;  ///< [N/m]
   double G;  ///< [N]
@@ -33,13 +33,13 @@ struct WideningForce {
   double k;          ///< [N/m]
   double clearance;  ///< ΔR [m]
 };
-/// ½ k e (w − sin w), e = ΔR + δ, cos ½w = ΔR/e: of a pin in a hole that an elastic layer lines.
+/// ½ k e (w − sin w), e = ΔR + δ, cos ½w = ΔR/e: of a pin in a hole lined with an elastic layer.
 struct FoundationForce {
   double k;          ///< stiffness of the layer [N/m³] times length and radius [N/m]
   double clearance;  ///< ΔR [m]
 };
-/// Through given points, the first of them without depth and force, by cubics that rise wherever the points do (Fritsch and Butland
-/// 1984), slope continuous; beyond the last straight, with the slope there.
+/// Through given points, the first with zero depth and force, by cubics that rise wherever the points do (Fritsch and Butland 1984), with
+/// continuous slope; beyond the last point linear, with the slope there.
 struct ForceTable {
   struct Knot {
     double depth, force, slope, stored;  ///< [m], [N], [N/m], [J]
@@ -47,21 +47,21 @@ struct ForceTable {
   std::vector<Knot> knots;
 };
 /// @param points  depth and force [m, N]
-/// @throws std::invalid_argument  fewer than two; not from (0, 0); not both rising
+/// @throws std::invalid_argument  fewer than two points; first one not (0, 0); depth or force not rising
 ForceTable force_table(const std::vector<std::array<double, 2>>& points);
 
 using ElasticLaw = std::variant<PowerForce, LogarithmicForce, WideningForce, ForceTable, FoundationForce>;
 /// No allocation. @param depth  > 0 [m]
 ElasticForce evaluate(const ElasticLaw&, double depth);
-/// Half the angle that a pin spans at a depth where cos of it = ΔR/(ΔR + δ) [rad].
+/// Half the angle spanned by a pin at a depth, where its cosine is ΔR/(ΔR + δ) [rad].
 double half_angle(const FoundationForce&, double depth);
 
 /// f = F(δ)(1 + χ δ̇/δ̇₀), never below zero.
 struct DampedLaw {
   ElasticLaw elastic;
   double chi = 0;                                            ///< hysteresis factor, –
-  double deepest = std::numeric_limits<double>::infinity();  ///< to which its author's assumptions hold, or a table goes [m]
-  std::string_view name = {};                                ///< as a scene file says it
+  double deepest = std::numeric_limits<double>::infinity();  ///< limit of its author's assumptions, or end of a table [m]
+  std::string_view name = {};                                ///< name in scene files
   std::string_view limit = {};                               ///< why it ends there, and what to do
 };
 NormalForce evaluate(const DampedLaw&, const Approach&);
@@ -72,7 +72,7 @@ inline NormalForce evaluate(const NormalLaw& law, const Approach& at) {
   return evaluate(*std::get_if<DampedLaw>(&law), at);
 }
 
-// The answers of normal_law.h.
+// The functions of normal_law.h.
 double depth_storing(const NormalLaw&, double energy);
 double stiffness_of_equal_energy(const NormalLaw&, double depth);
 double stiffness_at(const NormalLaw&, double depth);
@@ -86,11 +86,11 @@ double depth_reached(const NormalLaw&, double lightness, double speed);
 double speed_to_reach(const NormalLaw&, double lightness, double depth);
 double part_of_depth(const NormalLaw&, double tolerance, double missed);
 double restitution_of(const NormalLaw&, double mass);
-/// "2.1e+09 N/m (johnson, at 1e-05 m)": the secant, where the law ends.
+/// "2.1e+09 N/m (johnson, at 1e-05 m)": the secant stiffness where the law ends.
 std::string stiffness_text(const NormalLaw&, int digits = 6);
 std::vector<std::pair<std::string, double>> constants_of(const NormalLaw&);
 
-/// What makes it doubtful at a depth [m]; empty: nothing.
+/// Why the law is doubtful at a depth [m]; empty: it is not.
 std::string range_warning(const NormalLaw&, double depth);
 
 }  // namespace pintle

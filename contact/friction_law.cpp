@@ -7,7 +7,7 @@ namespace pintle {
 
 namespace {
 
-// Of |f| = c(|v|) N and dc/d|v|.
+// Force from |f| = c(|v|) N and the slope dc/d|v|.
 FrictionForce against(double v, double normal, double c, double slope) {
   return {std::copysign(c, -v) * normal, -slope * normal, std::copysign(c, -v)};
 }

@@ -29,10 +29,10 @@ PlaceOn place_on_arc(const Piece& piece, const Gap& gap, const Vector2d& normal,
 
 namespace {
 
-// Below this eccentricity its square is no longer a normal number, and n would not be unit [m].
+// Below this eccentricity its square is not a normal number, and n would not be a unit vector [m].
 constexpr double concentric = 1e-140;
 
-// Two arcs, of which out.e is known.
+// Between two arcs, with out.e known.
 void between_arcs(const PiecePair& pair, const Vector2d& e_rate, double w_a, double w_b, Gap& out) {
   const double distance = out.e.norm(), side = pair.hollow() ? 1 : -1;
   const bool has_direction = !(distance < concentric);

@@ -66,12 +66,12 @@ std::vector<std::pair<std::string, double>> constants_of(const ImpactLaw& law) {
 
 namespace {
 
-/// Has the sign of  ln[(1 + χ)/(1 − χe)] − χ(1 + e)  for χ > 0, 0 < χe ≤ 1. It increases with e,
-/// and as a function of χ it turns from negative to positive once.
+/// Has the sign of  ln[(1 + χ)/(1 − χe)] − χ(1 + e)  for χ > 0, 0 < χe ≤ 1. It increases with e; as a function of χ it changes once from
+/// negative to positive.
 double impact_balance(double chi, double e) {
   constexpr double series_below = 0.3;  // above it the logarithms lose less than two digits
   if (chi > series_below) return std::log1p(chi) - std::log1p(-chi * e) - chi * (1 + e);
-  // Divided by χ², with the leading term in a form that keeps its digits as e nears 1:
+  // Divided by χ², with the leading term in a form that keeps its accuracy as e approaches 1:
   //   −(1 − e)(1 + e)/2 + χ(1 + e³)/3 − χ²(1 − e⁴)/4 + χ³(1 + e⁵)/5 − …
   double sum = -(1 - e) * (1 + e) / 2;
   double chi_power = 1, e_power = e * e, sign = -1;
@@ -84,8 +84,8 @@ double impact_balance(double chi, double e) {
   return sum;
 }
 
-/// The point where `balance` turns from negative to positive, to the last bit. Bisection: a root is
-/// sought a few times when a scene is built, and the logarithm's pole at χe = 1 defeats Newton.
+/// The point where `balance` changes from negative to positive, to the last bit. Bisection: only a few roots are needed when a scene is
+/// built, and Newton's method fails because of the logarithm's pole at χe = 1.
 template <class F>
 double sign_change(double low, double high, F balance) {
   for (;;) {
@@ -131,8 +131,7 @@ double effective_restitution(double chi) {
   return sign_change(0, std::min(1.0, 1 / chi), [chi](double e) { return impact_balance(chi, e); });
 }
 
-// δ̈ = 0 ends the contact: with ζ = sin a at ωt = π − 2a, where −δ̇/δ̇₀ is the decay so far; with
-// ζ = cosh b likewise at Ωt = 2b.
+// δ̈ = 0 ends the contact: with ζ = sin a at ωt = π − 2a, where −δ̇/δ̇₀ is the decay so far; likewise with ζ = cosh b at Ωt = 2b.
 double linear_restitution(double zeta) {
   assert(zeta >= 0);
   if (zeta < 1) {
@@ -146,7 +145,7 @@ double linear_restitution(double zeta) {
 double damping_ratio(double e) {
   assert(e > 0 && e <= 1);
   if (e >= 1) return 0;
-  // For e ≪ 1: e → 1/(4ζ²), so that 1/√e lies beyond.
+  // For e ≪ 1, e → 1/(4ζ²), so 1/√e is an upper bound.
   return sign_change(0, std::max(1.0, 1 / std::sqrt(e)), [e](double zeta) { return e - linear_restitution(zeta); });
 }
 

@@ -15,8 +15,9 @@ Pressure under(const HertzLine& line, double force) {
   return {2 * force / (pi * half_width * line.length), half_width / line.smaller};
 }
 
-// With t = tan²(ε/2): E*ΔR L/F = [2 − ln(1 + t) − 2t²]/(2π t (1 + t)). Times t, a concave function falls from above 0: after its first
-// step from t = 0 Newton comes down to the root. In the middle p R L/F = [2 √t/√(1 + t) + asinh(√t)/(t (1 + t))]/π.
+// With t = tan²(ε/2): E*ΔR L/F = [2 − ln(1 + t) − 2t²]/(2π t (1 + t)). Multiplied by t this gives a concave function that falls from a
+// positive value: after the first step from t = 0 Newton converges monotonically to the root. In the middle p R L/F = [2 √t/√(1 + t) +
+// asinh(√t)/(t (1 + t))]/π.
 Pressure under(const ConformingPin& pin, double force) {
   const double q = force / (pin.modulus * pin.clearance * pin.length);
   double t = 2 * q / (q + 2 * pi);
@@ -32,7 +33,7 @@ Pressure under(const ConformingPin& pin, double force) {
 
 Pressure under(const LinedHole& hole, double force) {
   double depth = hole.force.clearance;
-  for (int i = 0; i < 100; ++i) {  // Newton in the logarithms of both, nearly proportional
+  for (int i = 0; i < 100; ++i) {  // Newton in the logarithms of both, which are nearly proportional
     const ElasticForce now = evaluate(ElasticLaw(hole.force), depth);
     const double step = -std::log(now.force / force) * now.force / (now.stiffness * depth);
     depth *= std::exp(step);

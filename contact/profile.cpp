@@ -19,7 +19,7 @@ using std::numbers::pi;
 Vector2d towards(double angle) { return {std::cos(angle), std::sin(angle)}; }
 double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
-/// A straight line or an arc of a path, by its two ends and the directions in which it leaves and arrives.
+/// A straight line or an arc of a path, by its two ends and the directions at them.
 struct Stretch {
   Vector2d from, to;
   double arc, leaves, arrives;
@@ -32,7 +32,7 @@ std::string between(std::size_t point, std::size_t points) {
 }
 
 std::vector<Stretch> stretches_of(const std::vector<PathPoint>& path, bool closed) {
-  constexpr double no_length = 1e-12;  // of the whole
+  constexpr double no_length = 1e-12;  // relative to the whole
   const std::size_t n = path.size(), count = closed ? n : n - 1;
   double size = 0;
   for (const PathPoint& p : path) size = std::max(size, (p.at - path.front().at).norm());
@@ -54,7 +54,7 @@ std::vector<Stretch> stretches_of(const std::vector<PathPoint>& path, bool close
   return out;
 }
 
-// Left turn from one stretch to the next; a whole turn back is told from none.
+// Left turn from one stretch to the next; distinguishes turning right back from going straight on.
 double turn_between(const Stretch& a, const Stretch& b) { return std::remainder(b.leaves - a.arrives, 2 * pi); }
 
 Piece piece_of(const Stretch& s) {
@@ -70,7 +70,7 @@ Piece piece_of(const Stretch& s) {
 
 Piece corner(const Vector2d& at, double normal, double half) { return {.radius = 0, .centre = at, .normal = normal, .half = half}; }
 
-// Cuts a corner between two straight lines short by an arc.
+// Replaces a corner between two straight lines by an arc.
 Stretch rounded(Stretch& before, Stretch& after, double turn, double radius, std::size_t points) {
   const double cut = radius * std::tan(std::abs(turn) / 2);
   for (const Stretch* s : {&before, &after})
@@ -87,7 +87,7 @@ Stretch rounded(Stretch& before, Stretch& after, double turn, double radius, std
   return arc;
 }
 
-// Every point that it goes through, and points between these.
+// Every point that it passes through, and points between these.
 std::vector<Vector2d> drawn(const CurveSpan& span) {
   std::vector<double> stops{span.begin()};
   for (const double s : span.knots())
@@ -102,7 +102,7 @@ std::vector<Vector2d> drawn(const CurveSpan& span) {
 
 struct Segment {
   Vector2d from, to;
-  double bulge;  ///< less than this part of its length may lie between it and the piece
+  double bulge;  ///< largest distance to the piece, relative to its length
 };
 std::vector<Segment> segments_of(const std::vector<Piece>& pieces) {
   std::vector<Segment> out;
@@ -132,7 +132,7 @@ void require_simple(const std::vector<Piece>& pieces, bool closed) {
 struct Raised {
   Vector2d at, out;
 };
-// @param part  of the piece, −1 where it begins
+// @param part  position on the piece, −1 where it begins
 Raised surface_at(const Piece& piece, double part) {
   if (piece.curve) {
     const CurvePoint p = piece.curve->at(piece.curve->begin() + (1 + part) * piece.half);
@@ -143,7 +143,7 @@ Raised surface_at(const Piece& piece, double part) {
   return {piece.straight ? Vector2d(piece.centre + part * piece.half * perp(out)) : Vector2d(piece.centre + piece.radius * out), out};
 }
 
-// Half the way through the material behind a piece, where that is shortest.
+// Half the shortest distance through the material behind a piece.
 double half_material(const Piece& piece, const std::vector<Segment>& all) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const double part : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
@@ -230,7 +230,7 @@ Profile profile_through(const std::vector<Vector2d>& points, bool closed) {
   if (n < least) wrong("it has " + std::to_string(n) + " points; a spline takes " + std::to_string(least) + " or more");
   std::vector<PathPoint> path;
   for (const Vector2d& p : points) path.push_back({p});
-  stretches_of(path, closed);  // of no two points at one place
+  stretches_of(path, closed);  // checks for two points at one place
   const auto curve = std::make_shared<const SmoothCurve>(points, closed);
   Profile out;
   out.closed = closed;
@@ -256,7 +256,7 @@ Profile profile_through(const std::vector<Vector2d>& points, bool closed) {
 }
 
 Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
-  constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; over so small a hollow kink a contact goes on
+  constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; over a smaller concave kink a contact continues
   if (path.size() < 2) wrong("it has fewer than two points; add points");
   const bool arcs = std::any_of(path.begin(), path.end(), [](const PathPoint& p) { return p.arc != 0; });
   if (closed && path.size() < 3 && !arcs) wrong("it is closed but has fewer than three points; add a point, or an arc");

@@ -27,14 +27,14 @@ Square<E> turn(const Matrix2d& x) {
   return Q;
 }
 
-/// What each freedom, element axes, gives at one point: displacement along and across the axis,
-/// rotation of the section, and the slopes of the first two along the axis.
+/// Contribution of each freedom, in element axes, at one point: displacement along and across the axis, rotation of the section, and the
+/// slopes of the first two along the axis.
 template <class E>
 struct Field {
   Row<E> u, w, theta, du, dw;
 };
 
-/// Shear against bending flexibility over the element, 12 EI/(κGA L²).
+/// Ratio of shear to bending flexibility of the element, 12 EI/(κGA L²).
 double shear_ratio(const BeamEuler&, double) { return 0; }
 double shear_ratio(const BeamTimoshenko& e, double L) { return 12 * e.EI / (e.kGA * L * L); }
 
@@ -48,8 +48,8 @@ Field<Bar> field(const Bar&, double L, double xi) {
   return f;
 }
 
-// Chord, parabola of the relative rotation, cubic of the chord's turn against the mean rotation:
-// the static solution for end loads, Φ = shear_ratio.
+// Sum of the chord, a parabola due to the relative rotation, and a cubic due to the difference between the chord's rotation and the mean
+// rotation: the static solution for end loads, Φ = shear_ratio.
 template <BeamElement E>
 Field<E> field(const E& e, double L, double xi) {
   const double phi = shear_ratio(e, L), a = 1 / (1 + phi);
@@ -79,7 +79,7 @@ double rotary_inertia(const E& e) {
   return e.rhoI;
 }
 
-/// ∫ integrand(field, ξ) ds, turned into body axes. Exact to degree 7: M asks for 6.
+/// ∫ integrand(field, ξ) ds, rotated into body axes. Exact to degree 7; M needs 6.
 template <class E, class F>
 Square<E> integrate(const E& e, const Matrix2d& x, F integrand) {
   struct Point {
@@ -94,8 +94,8 @@ Square<E> integrate(const E& e, const Matrix2d& x, F integrand) {
   return Q * sum * Q.transpose();
 }
 
-/// The three ways to deform, in body freedoms: elongation, relative rotation of the ends, and the
-/// distance by which the far end misses the chord that the mean rotation points along.
+/// The three deformation modes, in body freedoms: elongation, relative rotation of the ends, and the distance of the far end from a chord
+/// in the direction of the mean rotation.
 template <class E>
 struct Natural {
   Row<E> stretch, bend, shear;
@@ -116,7 +116,7 @@ Natural<E> natural(const Matrix2d& x) {
   return {d.stretch * Q.transpose(), d.bend * Q.transpose(), d.shear * Q.transpose()};
 }
 
-/// Force per natural deformation: N per elongation, mean M per relative rotation, V per miss.
+/// Force per natural deformation: N per elongation, mean M per relative rotation, V per distance from the chord.
 struct Springs {
   double stretch, bend, shear;
 };
@@ -204,7 +204,7 @@ Freedoms<E> line_load(const E&, const Coords<E>& x, const Vector2d& q) {
   return f;
 }
 
-// Every element, every verb.
+// Instantiates all functions for all elements.
 
 template Square<Bar> stiffness(const Bar&, const Coords<Bar>&);
 template Square<Bar> mass(const Bar&, const Coords<Bar>&);

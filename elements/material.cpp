@@ -23,7 +23,7 @@ void judge(const Isotropic& m) {
   require(m.poisson > -1 && m.poisson < 0.5, "poisson", m.poisson, "above −1 and below 0.5; take 0.4999 for a nearly incompressible solid");
 }
 
-// Both axes stretch when pulled, whatever the other does.
+// Tension along either axis gives elongation, whatever the other stress.
 void judge(const Orthotropic& m) {
   require(m.young_1 > 0, "young_1", m.young_1, "positive [Pa]");
   require(m.young_2 > 0, "young_2", m.young_2, "positive [Pa]");
@@ -50,7 +50,7 @@ PlaneMaterial plane(const Isotropic& m, PlaneState state) {
   return out;
 }
 
-/// Compliance of the 1–2 plane and the stress σ₃ = s₁σ₁ + s₂σ₂ that keeps ε₃ = 0.
+/// Compliance in the 1–2 plane, and the stress σ₃ = s₁σ₁ + s₂σ₂ that keeps ε₃ = 0.
 struct InPlane {
   double S11, S12, S22, s1, s2;
 };

@@ -8,8 +8,8 @@
 namespace pintle {
 namespace {
 
-/// Σ_p t A_p B_pᵀ D B_p over all functions, [u_x u_y] of each. As D is constant, products of
-/// gradients are summed first and D enters once.
+/// Σ_p t A_p B_pᵀ D B_p over all functions, [u_x u_y] of each. Since D is constant, products of gradients are summed first and multiplied
+/// by D once.
 template <class E>
 Eigen::Matrix<double, 2 * functions<E>, 2 * functions<E>> full_stiffness(const PlaneProperties& properties, const PointGradients<E>& at) {
   constexpr int n = functions<E>;
@@ -43,7 +43,7 @@ Eigen::Matrix<double, 4, 8> amplitudes(const Eigen::Matrix<double, 12, 12>& K) {
   return -K.bottomRightCorner<4, 4>().llt().solve(K.bottomLeftCorner<4, 8>());
 }
 
-/// ∫ ρ t N_i N_j: what the mass and the skew mass are made of.
+/// ∫ ρ t N_i N_j, from which the mass and the skew mass are formed.
 template <class E>
 Eigen::Matrix<double, E::nodes, E::nodes> scalar_mass(const E& e, const Coords<E>& x) {
   constexpr auto& table = mass_table<E>;

@@ -4,8 +4,7 @@
 
 #include "elements/plane.h"
 
-/// Shape functions and integration rules of the plane kinds, tabulated at compile time. For
-/// plane.cpp and plane_stress.cpp alone.
+/// Shape functions and integration rules of the plane kinds, tabulated at compile time. Only for plane.cpp and plane_stress.cpp.
 namespace pintle {
 
 using CellPosition = std::array<double, 2>;  ///< ξ, η
@@ -16,14 +15,14 @@ inline constexpr std::array<CellPosition, 9> quadrilateral_nodes{
 
 constexpr bool is_triangle(PlaneKind kind) { return kind == PlaneKind::triangle3 || kind == PlaneKind::triangle6; }
 
-/// Of one value at all nodes: N_i; a row for ∂/∂ξ and one for ∂/∂η.
+/// Values at all nodes: N_i; one row for ∂/∂ξ and one for ∂/∂η.
 template <int nodes>
 struct ShapeValues {
   std::array<double, nodes> N{};
   std::array<std::array<double, nodes>, 2> d{};
 };
 
-/// Functions of one variable, and their slopes, that are 1 at `node` ∈ {−1, 0, 1}, 0 at the others.
+/// Functions of one variable, and their slopes, that are 1 at `node` ∈ {−1, 0, 1} and 0 at the others.
 struct ValueAndSlope {
   double f, d;
 };
@@ -54,8 +53,7 @@ constexpr ShapeValues<E::nodes> triangle_shapes(double xi, double eta) {
   return s;
 }
 
-/// Tensor products; of a serendipity element's corners and sides, the corners less half of either
-/// side.
+/// Tensor products; for corners and sides of a serendipity element, the corner functions minus half of those of both adjacent sides.
 template <class E>
 constexpr ShapeValues<E::nodes> quadrilateral_shapes(double xi, double eta) {
   ShapeValues<E::nodes> s;
@@ -93,7 +91,7 @@ struct PlaneRule {
   std::array<double, count> weight{};
 };
 
-/// Gauss points on [−1, 1] with 2, 3 or 4 of them: exact to degree 3, 5, 7.
+/// Gauss rules on [−1, 1] with 2, 3 or 4 points: exact to degree 3, 5, 7.
 template <int count>
 struct LineRule {
   std::array<double, count> at, weight;
@@ -117,7 +115,7 @@ constexpr PlaneRule<count * count> squared(const LineRule<count>& line) {
 inline constexpr PlaneRule<1> triangle_1{{{{1.0 / 3, 1.0 / 3}}}, {0.5}};
 inline constexpr PlaneRule<3> triangle_3{{{{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}}, {1.0 / 6, 1.0 / 6, 1.0 / 6}};
 
-/// Exact to degree 6 [Dunavant1985], its digits refined by Newton's method on the moment equations.
+/// Exact to degree 6 [Dunavant1985], with digits refined by Newton's method on the moment equations.
 constexpr PlaneRule<12> triangle_12() {
   constexpr double a = 0.24928674517091043650, wa = 0.11678627572637933960 / 2;
   constexpr double b = 0.06308901449150222305, wb = 0.05084490637020680984 / 2;
@@ -140,7 +138,7 @@ constexpr auto stiffness_rule() {
     return squared(gauss_3);
 }
 
-/// Exact for N_i N_j det J, whatever the place of the nodes.
+/// Exact for N_i N_j det J, for any positions of the nodes.
 template <class E>
 constexpr auto mass_rule() {
   if constexpr (E::nodes == 3)
@@ -188,12 +186,11 @@ Eigen::Matrix2d jacobian(const ShapeValues<E::nodes>& s, const Coords<E>& x) {
   return J;
 }
 
-/// Displacement functions of an element: the nodes', then the incompatible ones 1 − ξ² and 1 − η².
+/// Displacement functions of an element: those of the nodes, then the incompatible ones 1 − ξ² and 1 − η².
 template <class E>
 inline constexpr int functions = E::nodes + (E::plane_kind == PlaneKind::quadrilateral4 ? 2 : 0);
 
-/// ∂/∂x and ∂/∂y of every function at the integration points [1/m], and the area of each point
-/// [m²].
+/// ∂/∂x and ∂/∂y of every function at the integration points [1/m], and the area of each point [m²].
 template <class E>
 struct PointGradients {
   std::array<Eigen::Matrix<double, functions<E>, 2>, E::points> g;
@@ -218,7 +215,7 @@ PointGradients<E> point_gradients(const Coords<E>& x) {
     auto& g = out.g[p];
     for (int i = 0; i < E::nodes; ++i) g.row(i) = s.d[0][i] * inverse.row(0) + s.d[1][i] * inverse.row(1);
     if constexpr (functions < E >> E::nodes) {
-      // The centre's Jacobian and det J cancelled: ∫ ∇M_k = 0, which is the patch test.
+      // With the Jacobian of the centre, and det J cancelled: ∫ ∇M_k = 0, which satisfies the patch test.
       const Eigen::Matrix2d scaled = centre.inverse() * (centre.determinant() / det);
       for (int k = 0; k < 2; ++k) g.row(E::nodes + k) = -2 * table.rule.at[p][k] * scaled.row(k);
     }
@@ -226,7 +223,7 @@ PointGradients<E> point_gradients(const Coords<E>& x) {
   return out;
 }
 
-/// Amplitudes [u_x u_y] of the two incompatible modes per nodal freedom, no force acting on them.
+/// Amplitudes [u_x u_y] of the two incompatible modes per nodal freedom, with no force acting on them.
 Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties&, const PointGradients<Quadrilateral4>&);
 
 }  // namespace pintle

@@ -8,8 +8,8 @@
 namespace pintle {
 namespace {
 
-/// Adds w · N_i · force(∂x/∂ξ) for each node, at the Gauss points of `panels` equal parts of [−1,
-/// 1]. `force` turns the tangent [m] into a force [N].
+/// Adds w · N_i · force(∂x/∂ξ) for each node, at the Gauss points of `panels` equal parts of [−1, 1]. `force` converts the tangent [m] into
+/// a force [N].
 template <class Force>
 Eigen::VectorXd integrate(const Eigen::Matrix2Xd& side, int panels, Force force) {
   const Eigen::Index nodes = side.cols();
@@ -37,7 +37,7 @@ Eigen::VectorXd integrate(const Eigen::Matrix2Xd& side, int panels, Force force)
 }  // namespace
 
 Eigen::VectorXd side_load(const Eigen::Matrix2Xd& side, const Eigen::Vector2d& traction, double thickness) {
-  // |∂x/∂ξ| of a parabola is no polynomial; parts make it nearly one.
+  // |∂x/∂ξ| of a parabola is not a polynomial, but nearly one in each of many parts.
   constexpr int panels = 32;
   return integrate(side, panels, [&](const Eigen::Vector2d& tangent) -> Eigen::Vector2d { return thickness * tangent.norm() * traction; });
 }

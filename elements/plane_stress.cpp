@@ -11,8 +11,8 @@
 namespace pintle {
 namespace {
 
-/// What a point's stress counts for at a node. Quadrilaterals: the bilinear least squares, whose
-/// normal equations the Gauss weights make diagonal. docs/theory/plane.md.
+/// Weight of a point's stress at a node. Quadrilaterals: bilinear least squares, whose normal equations are diagonal with the Gauss
+/// weights. docs/theory/plane.md.
 template <class E>
 double share(int p, const CellPosition& node) {
   if constexpr (E::points == 1) return 1;

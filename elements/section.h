@@ -15,23 +15,23 @@ struct CircleSection {
 struct TubeSection {
   double outer, inner;
 };  ///< diameters
-/// Flanges lie across the plane's height: `height` over all, `width` of the flanges, `web` and
-/// `flange` the thicknesses. No fillets.
+/// Flanges are perpendicular to the mechanism's plane: `height` is the overall height, `width` that of the flanges, `web` and `flange` the
+/// thicknesses. No fillets.
 struct ISection {
   double height, width, web, flange;
 };
-/// Whatever else: A, I and the distances from the axis to the outermost fibres.
+/// Any other section: A, I and the distances from the axis to the outermost fibres.
 struct GivenSection {
   double area;                         ///< A [m²]
   double second_moment;                ///< I about the axis across the plane [m⁴]
-  double fibre = 0;                    ///< distance to the outermost fibre; 0: bending stress is not told [m]
-  std::optional<double> shear_factor;  ///< κ, then taken as it is; unset: 5/6
+  double fibre = 0;                    ///< distance to the outermost fibre; 0: no bending stress is computed [m]
+  std::optional<double> shear_factor;  ///< κ, used as given; unset: 5/6
 };
 using SectionShape = std::variant<RectangleSection, CircleSection, TubeSection, ISection, GivenSection>;
 
-/// Which shear factor κ (shear stiffness κGA) a Timoshenko beam takes.
-/// `cowper`: by section and Poisson's ratio [Cowper1966]: solid formulas for rectangle, circle and
-/// tube, the thin-walled one for I; `five_sixths`: 5/6 for each section.
+/// The shear factor κ (shear stiffness κGA) of a Timoshenko beam.
+/// `cowper`: from section and Poisson's ratio [Cowper1966]: formulas for solid sections for rectangle, circle and tube, the thin-walled one
+/// for I; `five_sixths`: 5/6 for all sections.
 enum class ShearFactor { cowper, five_sixths };
 
 struct Section {
@@ -40,12 +40,12 @@ struct Section {
   double kappa;  ///< shear factor, in (0, 1] for 0 ≤ ν ≤ ½ –
   double fibre;  ///< axis to outermost fibre: half the height [m]
 };
-/// `poisson` matters to `cowper` alone.
-/// @throws std::invalid_argument  a size is not positive or they contradict each other
+/// `poisson` is used only for `cowper`.
+/// @throws std::invalid_argument  a size is not positive, or they contradict each other
 Section section(const SectionShape&, ShearFactor, double poisson);
 
-/// Between two sections of one kind, size by size, t from 0 to 1: how a tapered beam is cut.
-/// An unset shear factor stays unset, beside a set one it counts as 5/6.
+/// Interpolates between two sections of one kind, size by size, with t from 0 to 1: used to divide a tapered beam. An unset shear factor
+/// stays unset; combined with a set one it counts as 5/6.
 /// @throws std::invalid_argument  the kinds differ
 SectionShape between(const SectionShape&, const SectionShape&, double t);
 

@@ -34,7 +34,7 @@ class File {
  public:
   explicit File(const fs::path& path) {
     struct stat s {};
-    // Judged first by name: to open a device or a pipe may already do something.
+    // Checked by name first: opening a device or a pipe may already have effects.
     if (::stat(path.c_str(), &s) != 0) {
       if (errno == ENOENT || errno == ENOTDIR) throw FileRefused("there is no such file; check the path");
       throw FileRefused(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");

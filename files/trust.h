@@ -5,14 +5,14 @@
 
 namespace pintle {
 
-/// What the user allows beyond what is safe for a scene of unknown origin (SECURITY.md). The program's command line or
-/// the library's caller says it; a scene cannot.
+/// What the user allows beyond what is safe for a scene of unknown origin (SECURITY.md). Set by the program's command line or the library's
+/// caller; a scene cannot change it.
 struct Trust {
-  std::vector<std::filesystem::path> folders;  ///< scenes may read from these too, and from all below them
-  bool geo = false;                            ///< .geo scripts run unconfined, with all that they ask for
+  std::vector<std::filesystem::path> folders;  ///< scenes may read from these too, and below
+  bool geo = false;                            ///< .geo scripts run unconfined, with full access
 };
 
-/// Holds for the whole process. Set it before scenes are read, not while other threads read them.
+/// Applies to the whole process. Set it before scenes are read, not while other threads read them.
 void set_trust(Trust);
 const Trust& trust();
 

@@ -23,7 +23,7 @@ Parabola parabola(const Mesh& mesh, const SideView& s) {
   return {a, b - a + 4 * bow, -4 * bow};
 }
 
-// Whether the ray from p to the right meets the part of the curve from t = 0 to 1, along which y only rises or only falls.
+// Whether the ray from p to the right meets the part of the curve from t = 0 to 1, on which y is monotonic.
 bool ray_meets(const Parabola& c, double from, double to, double y_from, double y_to, const Vector2d& p) {
   if ((y_from <= p.y()) == (y_to <= p.y())) return false;
   double low = from, high = to;

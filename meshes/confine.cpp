@@ -17,7 +17,7 @@ namespace pintle {
 
 namespace {
 
-// Of linux/landlock.h, which older systems lack; the numbers are fixed.
+// From linux/landlock.h, which older systems lack; the numbers are fixed.
 constexpr long landlock_create = 444, landlock_add = 445, landlock_restrict = 446;
 constexpr std::uint64_t read_file = 1 << 2, read_folder = 1 << 3;
 struct Ruleset {
@@ -28,7 +28,7 @@ struct [[gnu::packed]] Below {
   std::int32_t folder;
 };
 
-/// All rights over files that this version of Landlock knows.
+/// All file access rights known to this version of Landlock.
 std::uint64_t rights_of(long version) {
   const int count = version >= 5 ? 16 : version >= 3 ? 15 : version >= 2 ? 14 : 13;
   return (std::uint64_t{1} << count) - 1;
@@ -101,9 +101,9 @@ constexpr long forbidden[]{SYS_execve,
 
 sock_filter load(std::size_t offset) { return {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<std::uint32_t>(offset)}; }
 sock_filter answer(std::uint32_t action) { return {BPF_RET | BPF_K, 0, 0, action}; }
-/// The next instruction if the test holds, else the one after it.
+/// Executes the next instruction if the test holds, else the one after it.
 sock_filter if_true(std::uint16_t test, std::uint32_t value) { return {static_cast<std::uint16_t>(BPF_JMP | test | BPF_K), 0, 1, value}; }
-/// The next instruction unless the test holds.
+/// Executes the next instruction unless the test holds.
 sock_filter unless(std::uint16_t test, std::uint32_t value) { return {static_cast<std::uint16_t>(BPF_JMP | test | BPF_K), 1, 0, value}; }
 
 bool filter_calls() {
@@ -112,7 +112,7 @@ bool filter_calls() {
   std::vector<sock_filter> program{load(offsetof(seccomp_data, arch)), unless(BPF_JEQ, machine),     kill,
                                    load(offsetof(seccomp_data, nr)),   if_true(BPF_JGE, 0x40000000), kill};
   for (const long call : forbidden) program.insert(program.end(), {if_true(BPF_JEQ, static_cast<std::uint32_t>(call)), kill});
-  // Threads may be started. clone3 hides its flags behind a pointer; without it the C library takes clone.
+  // Threads are allowed. clone3 passes its flags by pointer, where they cannot be checked; without it the C library uses clone.
   program.insert(program.end(), {if_true(BPF_JEQ, SYS_clone3), answer(SECCOMP_RET_ERRNO | ENOSYS)});
   sock_filter not_clone = if_true(BPF_JEQ, SYS_clone);
   not_clone.jf = 3;

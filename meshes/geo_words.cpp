@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Between two marks; empty: they are not there.
+/// Text between two marks; empty if they are missing.
 std::string between(const std::string& words, const std::string& before, const std::string& after) {
   const std::size_t begin = words.find(before);
   if (begin == std::string::npos) return "";
@@ -23,7 +23,7 @@ struct Line {
   long number = 0;  ///< 0: none
   std::string_view text;
 };
-/// The first that holds a part of it.
+/// The first line that contains part of it.
 Line line_with(std::string_view text, std::string_view part) {
   const std::size_t at = part.empty() ? text.npos : text.find(part);
   if (at == text.npos) return {};
@@ -32,7 +32,7 @@ Line line_with(std::string_view text, std::string_view part) {
           text.substr(begin, text.find('\n', at) - begin)};
 }
 
-/// Why a file that the script names could not be opened.
+/// Why a file named by the script could not be opened.
 std::string refusal_of(const std::string& opened, const fs::path& file, const Line& line, const fs::path& read_from) {
   std::error_code error;
   if (line.text.find('>') != line.text.npos || line.text.find("Save") != line.text.npos || line.text.find("Print") != line.text.npos)

@@ -5,8 +5,8 @@
 
 namespace pintle {
 
-/// What was said of a .geo script, with the line that it is about and what to do about it, as far as both can be told from its
-/// text: Gmsh names the line of a syntax error, but of no file that it cannot open, and a script that is ended says nothing.
+/// Adds to a message about a .geo script the line concerned and a remedy, as far as they follow from its text: Gmsh names the line of a
+/// syntax error, but not of a file that it cannot open, and a script that is killed reports nothing.
 /// @param words  "FILE: what is wrong; what to do"
 /// @param read_from  the folder whose files it may read
 std::string with_line_of_script(const std::filesystem::path& file, const std::string& text, const std::string& words,

@@ -39,20 +39,20 @@ void judge(const std::string& name, const MeshOptions& o, double scale) {
     if (!p.allFinite()) reject(name, ": the point (", p.x(), ", ", p.y(), ") is not finite");
 }
 
-// What a file of each kind begins with. Gmsh goes by the words it finds: what has the name of a mesh and none of its
-// words would be run as a script.
+// Checks the beginning of a file of each kind. Gmsh goes by the content: a file named as a mesh but without its keywords would be run as a
+// script.
 void validate_head(const std::string& name, const std::string& kind, const std::string& text) {
   const auto fail = [&](const char* what) { reject(name, ": is no ", kind, " file: ", what, "; write it again, or correct its ending"); };
   const std::string_view head = text;
   if (kind == ".msh" && !head.starts_with("$MeshFormat")) fail("it does not begin with $MeshFormat");
   if (kind == ".brep" && head.find("CASCADE Topology") == head.npos) fail("it does not begin with CASCADE Topology");
   if ((kind == ".step" || kind == ".stp") && head.find("ISO-10303-21") == head.npos) fail("it does not begin with ISO-10303-21");
-  // Gmsh passes over the last line of a script without a word if it does not end.
+  // Gmsh silently ignores the last line of a script if it is not terminated.
   if (kind == ".geo" && !text.empty() && text.back() != '\n')
     reject(name, ": the last line has no newline, so Gmsh would ignore it; end the file with a newline");
 }
 
-// Gmsh runs what stands in FILE.opt whenever it reads FILE.
+// Gmsh runs the contents of FILE.opt whenever it reads FILE.
 void validate_options(const std::string& name) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(name + ".opt", error)))

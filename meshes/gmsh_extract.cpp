@@ -35,7 +35,7 @@ std::optional<CellShape> shape_of(int gmsh_type) {
   }
 }
 
-/// Reads the current model's mesh out.
+/// Extracts the mesh of the current model.
 struct Extract {
   const std::string& name;
   Mesh mesh{};
@@ -43,7 +43,7 @@ struct Extract {
 
   int column(size_t number) const {  // −1: none
     if (sorted.empty() || number < sorted.front() || number > sorted.back()) return -1;
-    const size_t guess = number - sorted.front();  // mostly without gaps
+    const size_t guess = number - sorted.front();  // the numbers usually have no gaps
     if (guess < sorted.size() && sorted[guess] == number) return static_cast<int>(guess);
     const auto at = std::lower_bound(sorted.begin(), sorted.end(), number);
     return *at == number ? static_cast<int>(at - sorted.begin()) : -1;

@@ -26,7 +26,7 @@ Tags tags(const gmsh::vectorpair& entities) {
   return out;
 }
 
-// 96 places along a curve: an eighth of a per cent of the radius off a full circle at most.
+// 96 points along a curve: for a full circle the error is at most 1/8 % of the radius.
 void sample(const std::string& name, int curve, bool forward, Contour& contour) {
   constexpr int count = 96;
   std::vector<double> low, high, t, x, curvature;
@@ -47,7 +47,7 @@ void sample(const std::string& name, int curve, bool forward, Contour& contour) 
   contour.curves.push_back(curve);
 }
 
-// First and last point of a curve; a closed one's are the same.
+// First and last point of a curve; they are the same for a closed one.
 std::pair<int, int> ends(int curve) {
   gmsh::vectorpair points;
   model::getBoundary({{1, curve}}, points, false, false);
@@ -122,7 +122,7 @@ std::vector<Pinned> gmsh_pin(const Figure& f, const std::vector<Vector2d>& point
   Tags within;
   gmsh::vectorpair faces;
   model::occ::getEntities(faces, 2);
-  const bool open_cascade = !faces.empty();  // Gmsh's other kernel drew it
+  const bool open_cascade = !faces.empty();  // drawn by Gmsh's other kernel
   for (const Vector2d& p : points) {
     const Vector2d at = p / scale;
     double least = std::numeric_limits<double>::infinity();
@@ -134,7 +134,7 @@ std::vector<Pinned> gmsh_pin(const Figure& f, const std::vector<Vector2d>& point
       if (d < least) least = d, nearest.curve = curve;
     }
     if (least <= 1e-6 * f.span) {
-      std::vector<double> t;  // that of getClosestPoint is not set on curves of Open CASCADE
+      std::vector<double> t;  // getClosestPoint does not set it on Open CASCADE curves
       model::getParametrization(1, nearest.curve, {at.x(), at.y(), 0}, t);
       nearest.t = t.at(0);
       on_curves.push_back(nearest);

@@ -27,7 +27,7 @@ namespace model = gmsh::model;
 
 void set(const char* option, double value) { gmsh::option::setNumber(option, value); }
 
-// Runs `work` with Gmsh open; what Gmsh throws or logs as an error becomes a runtime_error.
+// Runs `work` with Gmsh open; an exception or logged error of Gmsh becomes a runtime_error.
 template <class Work>
 Mesh with_gmsh(const std::string& what, Work work) {
   const GmshSession session;
@@ -44,7 +44,7 @@ Mesh with_gmsh(const std::string& what, Work work) {
     words = e.what();
   } catch (const std::string& e) {
     words = e;
-  } catch (...) {  // it says nothing
+  } catch (...) {  // it contains no message
   }
   if (const std::string logged = gmsh_errors(); !logged.empty()) words = logged;
   throw std::runtime_error(what + ": Gmsh cannot " + (words.empty() ? "make a mesh of it" : "make a mesh of it: " + words) +
@@ -75,8 +75,8 @@ void snap(const std::string& name, Mesh& mesh, const std::vector<Vector2d>& poin
   }
 }
 
-// Halving triangles in pairs gives quadrilaterals everywhere; where the first try has a poor one,
-// others may not: another way to place points, slightly other sizes. The best is taken.
+// Merging triangles in pairs gives quadrilaterals everywhere; if the first attempt has a poor one, others are made with another algorithm
+// for placing points or slightly different sizes. The best is used.
 Mesh mesh_figure(const Figure& f, const SizeField& field, const MeshOptions& o, double scale) {
   struct Try {
     double algorithm, factor;
@@ -148,7 +148,7 @@ Mesh gmsh_geometry(const fs::path& path, const MeshOptions& o, double scale) {
       reject(name,
              ": it contains no surface; draw one bounded by curves (Plane Surface in a .geo, a "
              "face in a .step)");
-    // The drawing may have set options of its own; what is asked for here comes first.
+    // The drawing may have set its own options; those requested here take precedence.
     set("Mesh.ElementOrder", 1);
     set("Mesh.RecombinationAlgorithm", 2);
     set("Mesh.SubdivisionAlgorithm", 0);

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-// What mesh_link and read_geometry say, in this process: once the input is judged and needs Gmsh indeed.
+// The work of mesh_link and read_geometry, in this process: for input that has been checked and needs Gmsh.
 Mesh gmsh_link(const Link&, const MeshOptions&);
 Mesh gmsh_geometry(const std::filesystem::path&, const MeshOptions&, double scale);
 

@@ -13,7 +13,7 @@ constexpr std::pair<const char*, double> defaults[]{{"General.Terminal", 0},
                                                     {"General.NumThreads", 1},
                                                     {"General.AbortOnError", 0},
                                                     {"Mesh.Algorithm", 6},               // Frontal-Delaunay
-                                                    {"Mesh.RecombinationAlgorithm", 2},  // all quadrilaterals, by halves
+                                                    {"Mesh.RecombinationAlgorithm", 2},  // quadrilaterals only, by subdivision
                                                     {"Mesh.RecombineAll", 0},
                                                     {"Mesh.SubdivisionAlgorithm", 0},
                                                     {"Mesh.RandomSeed", 1},
@@ -45,7 +45,7 @@ GmshSession::~GmshSession() {
     gmsh::logger::stop();
     gmsh::model::mesh::removeSizeCallback();
     gmsh::finalize();
-  } catch (...) {  // nothing is left that could be saved
+  } catch (...) {  // nothing can be saved any more
   }
 }
 

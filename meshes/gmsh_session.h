@@ -2,10 +2,10 @@
 
 #include <string>
 
-/// Gmsh opened and closed, for the files that mesh.
+/// Opening and closing Gmsh, for the files that mesh.
 namespace pintle {
 
-/// Gmsh, silent, for one piece of work, with a model and defaults of its own. One at a time in a process.
+/// Gmsh, silent, for one task, with its own model and defaults. Only one at a time in a process.
 class GmshSession {
  public:
   GmshSession();
@@ -14,7 +14,7 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
-/// The errors in Gmsh's log so far, one after the other; empty: none.
+/// The errors in Gmsh's log so far, concatenated; empty: none.
 std::string gmsh_errors();
 
 }  // namespace pintle

@@ -18,7 +18,7 @@ namespace pintle {
 
 namespace {
 
-/// From a file's numbers to places in a list.
+/// Maps a file's numbers to list indices.
 class NumberIndex {
  public:
   explicit NumberIndex(const std::vector<long>& numbers) : order_(numbers.size()) {
@@ -29,18 +29,18 @@ class NumberIndex {
   }
   int find(long number) const {  // −1: there is none
     if (sorted_.empty() || number < sorted_.front() || number > sorted_.back()) return -1;
-    const std::size_t guess = static_cast<std::size_t>(number - sorted_.front());  // mostly without gaps
+    const std::size_t guess = static_cast<std::size_t>(number - sorted_.front());  // the numbers usually have no gaps
     if (guess < sorted_.size() && sorted_[guess] == number) return order_[guess];
     const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), number);
     return *at == number ? order_[static_cast<std::size_t>(at - sorted_.begin())] : -1;
   }
-  /// Adds the places of those numbers first, first + step, … up to last that there are.
+  /// Adds the indices of the numbers first, first + step, … up to last, where they exist.
   void find_all(long first, long last, long step, std::vector<int>& out) const {
     auto at = std::lower_bound(sorted_.begin(), sorted_.end(), first);
     for (; at != sorted_.end() && *at <= last; ++at)
       if ((*at - first) % step == 0) out.push_back(order_[static_cast<std::size_t>(at - sorted_.begin())]);
   }
-  std::pair<int, int> twice() const {  // the places of a number that comes twice, or −1
+  std::pair<int, int> twice() const {  // the indices of a duplicate number, or −1
     const auto at = std::adjacent_find(sorted_.begin(), sorted_.end());
     if (at == sorted_.end()) return {-1, -1};
     const std::size_t k = static_cast<std::size_t>(at - sorted_.begin());
@@ -54,7 +54,7 @@ class NumberIndex {
 
 using SetKind = InpDeck::SetKind;
 
-constexpr std::size_t most_members = 200'000'000, most_depth = 1000;  // of all sets; of sets within sets
+constexpr std::size_t most_members = 200'000'000, most_depth = 1000;  // of all sets; of nested sets
 
 struct Builder {
   const InpDeck& queue;
@@ -64,10 +64,10 @@ struct Builder {
     std::vector<int> places{};
     bool whole = false;
   };
-  std::map<std::size_t, Members> of_set{};  // by its number
-  std::size_t total = 0, depth = 0;         // members of them all; sets that are being gathered
+  std::map<std::size_t, Members> of_set{};  // by index of the set
+  std::size_t total = 0, depth = 0;         // members of all sets; sets being collected
   std::vector<std::size_t> seen = std::vector<std::size_t>(std::max(queue.elements.size(), queue.x.size()));
-  std::size_t round = 0;  // seen[p] == round: p is among the members gathered now
+  std::size_t round = 0;  // seen[p] == round: p is already among the members being collected
   std::map<std::string, std::size_t> group_index{};
   std::vector<int> nodes{};  // of all elements, looked up
 
@@ -105,7 +105,7 @@ struct Builder {
     }
   }
 
-  // Abaqus puts the middle node of a line second, Gmsh last; where it lies says which.
+  // Abaqus numbers the middle node of a line second, Gmsh last; its position decides.
   void middle_last(std::size_t first) {
     const auto miss = [&](std::size_t middle, std::size_t a, std::size_t b) {
       const auto i = [&](std::size_t k) { return static_cast<std::size_t>(nodes[first + k]); };
@@ -140,7 +140,7 @@ struct Builder {
     return found->second;
   }
 
-  // The places of a set's members, in the order of naming, those of the sets it names among them; each once.
+  // The indices of a set's members, in the order listed, including those of the sets it names; each once.
   const std::vector<int>& members(std::size_t s) {
     const auto [known, is_new] = of_set.try_emplace(s);
     const InpDeck::Set& set = queue.sets[s];
@@ -186,7 +186,7 @@ struct Builder {
     std::erase_if(places, [&](int p) { return std::exchange(seen[static_cast<std::size_t>(p)], round) == round; });
   }
 
-  // Which side of the element a surface's label means: 0 to 3, −1 for all free ones.
+  // The side of the element meant by a surface's label: 0 to 3, −1 for all free ones.
   int side_of(const InpDeck::Item& item, const InpDeck::Element& e) const {
     if (item.label.empty()) return -1;
     const int number = item.label.size() == 2 ? item.label[1] - '0' : 0, corners = corners_of(e.kind.shape);
@@ -290,7 +290,7 @@ Mesh read_inp(const std::filesystem::path& path, double scale, const std::filesy
   builder.check_numbers();
   builder.look_up_nodes();
   Mesh mesh = builder.cells(scale);
-  if (mesh.plane()) orient(mesh);  // a cell that runs the other way would look like a hole
+  if (mesh.plane()) orient(mesh);  // a cell in the opposite direction would look like a hole
   const Rim rim(mesh);
   builder.groups(mesh, rim);
   InpClaims said = inp_claims(queue, builder.of_elements());

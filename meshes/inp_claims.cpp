@@ -10,14 +10,14 @@ namespace pintle {
 namespace {
 
 enum class Meaning {
-  none,   ///< no part of the body: output, steps
+  none,   ///< not part of the body: output, steps
   model,  ///< read elsewhere, or below
   load,   ///< supports and loads
-  law,    ///< of a material, beyond linear elasticity
+  law,    ///< of a material, other than linear elasticity
   axes,   ///< of a material
   contact,
-  spider,  ///< moves a rim with a reference node
-  part,    ///< makes another body: refused
+  spider,  ///< couples a rim to a reference node
+  part,    ///< changes the body: rejected
 };
 
 struct Keyword {
@@ -170,7 +170,7 @@ struct Reading {
   InpClaims claims{};
   std::map<Meaning, std::vector<std::string>> seen{};  ///< "*CLOAD of line 12", each keyword once
   std::set<std::string> named{};                       ///< keywords in `seen`
-  std::map<std::string, std::string> section_of{};     ///< material of sections, and where it is named first
+  std::map<std::string, std::string> section_of{};     ///< material of sections, and where it is first named
 
   const std::string& file(InpPlace p) const { return name_[static_cast<std::size_t>(p.file)]; }
   std::string where(InpPlace p) const { return file(p) + ":" + std::to_string(p.line); }
@@ -241,7 +241,7 @@ struct Reading {
     if (named.insert(keyword).second) seen[what].push_back(keyword + " (" + where(place) + ")");
   }
 
-  // The material that the sections name, or the only one.
+  // The material named by the sections, or the only one.
   void materials() {
     std::string current;
     for (const InpDeck::Other& other : queue.others) {

@@ -9,15 +9,15 @@
 
 namespace pintle {
 
-/// What the Builder of a deck's mesh knows of its elements.
+/// Element data that the mesh builder of a deck provides.
 struct InpElements {
-  std::function<std::vector<int>(const std::string& set)> of_set;  ///< places in InpDeck::elements; empty if there is no such set
-  std::function<bool(int element)> along_side;                     ///< a line lies along a side of a plane element
+  std::function<std::vector<int>(const std::string& set)> of_set;  ///< indices into InpDeck::elements; empty if there is no such set
+  std::function<bool(int element)> along_side;                     ///< a line is along a side of a plane element
 };
 
-/// Goes through the cards that are no mesh: what they say of the body, what is passed over.
-/// @throws std::invalid_argument  a card that ties nodes or makes another body, plane strain mixed with plane stress, lines with a section
-///     beside plane elements
+/// Evaluates the cards that do not define the mesh: what they say about the body, and which are ignored.
+/// @throws std::invalid_argument  a card that ties nodes or changes the body, plane strain mixed with plane stress, lines with a section
+/// together with plane elements
 InpClaims inp_claims(const InpDeck&, const InpElements&);
 
 }  // namespace pintle

@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-// Cards that make or move nodes by rule: to pass them over would read another mesh than was meant.
+// Cards that generate or move nodes: ignoring them would give a different mesh from the one intended.
 constexpr std::array generators{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
 
 struct Parser {
@@ -129,7 +129,7 @@ struct Parser {
   void surface(const InpCard& card) {
     const std::string* type = card.find("TYPE");
     const std::string kind = type ? upper(*type) : "ELEMENT";
-    if (kind != "ELEMENT" && kind != "NODE") {  // cutting and analytical surfaces are no part of the mesh
+    if (kind != "ELEMENT" && kind != "NODE") {  // cutting and analytical surfaces are not part of the mesh
       while (data()) ++at;
       return;
     }
@@ -151,7 +151,7 @@ struct Parser {
     queue.others.push_back({card, first, at});
   }
 
-  // One part, standing where it was drawn.
+  // A single part, placed where it was drawn.
   void part_card(const InpCard& card, bool& seen) {
     if (seen)
       queue.text.reject(card.place, "a second *", card.keyword, " after that of line ", part.line,
@@ -166,7 +166,7 @@ struct Parser {
   void run() {
     while (at < lines.size()) {
       const InpPlace place = lines[at].place;
-      if (data()) {  // belongs to a card that is passed over
+      if (data()) {  // belongs to an ignored card
         ++at;
         continue;
       }

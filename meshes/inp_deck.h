@@ -10,28 +10,28 @@
 
 namespace pintle {
 
-/// What an element's name says of its shape.
+/// The shape given by an element's name.
 struct InpKind {
   CellShape shape;
   bool shell = false;   ///< S1 and S2 are its faces; its sides have other labels
   bool strain = false;  ///< plane strain
 };
-/// @param reason  why there is none: what the name stands for, and what to do
+/// @param reason  why it is not supported: the meaning of the name, and the remedy
 std::optional<InpKind> inp_kind(const std::string& type, std::string& reason);
 
-/// An input file as it stands: numbers not yet looked up, but every card and field well formed.
+/// An input file in parsed form: references are not resolved, but every card and field is well formed.
 struct InpDeck {
   struct Element {
     InpKind kind;
-    std::size_t first;  ///< into element_nodes
+    std::size_t first;  ///< index into element_nodes
     InpPlace place;
   };
-  struct Item {  ///< of a set: a number, a range of them, or the name of another set
+  struct Item {  ///< of a set: a number, a range, or the name of another set
     long number = 0;
     std::string name;
     InpPlace place;
-    long last = 0, step = 0;  ///< of GENERATE, whose range may have gaps; step 0: no range
-    std::string label;        ///< of a surface: the side
+    long last = 0, step = 0;  ///< for GENERATE, whose range may have gaps; step 0: not a range
+    std::string label;        ///< for a surface: the side
   };
   enum class SetKind { node, element, surface };
   struct Set {
@@ -40,7 +40,7 @@ struct InpDeck {
     std::vector<Item> items;
     InpPlace place;
   };
-  /// A card that is no node, element or set, and its data.
+  /// A card other than nodes, elements and sets, with its data.
   struct Other {
     InpCard card;
     std::size_t first, last;  ///< lines of `text`

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;  // of all files together
 constexpr std::size_t most_files = 1000;
 
-/// A card or data, as far as the first letter tells.
+/// A card or data, judged by the first character.
 bool may_begin(std::string_view line) { return line.find_first_of("*0123456789+-.") == 0; }
 
 struct Reader {
@@ -51,7 +51,7 @@ struct Reader {
       const std::string_view text = trimmed(all.substr(at, end - at));
       at = end + 1, ++number;
       if (text.empty() || text.starts_with("**")) continue;
-      // What is no input file is not shown.
+      // The content of a file that is not an input file is not shown.
       if (!std::exchange(begun, true) && !may_begin(text))
         out.reject({file, number}, "is not an input file of CalculiX or Abaqus: it begins with neither a card (*NODE) nor numbers");
       if (text[0] == '*' && upper(text.substr(0, 8)) == "*INCLUDE")

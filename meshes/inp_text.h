@@ -10,20 +10,20 @@
 
 namespace pintle {
 
-/// Where a line of an input file stands.
+/// Position of a line of an input file.
 struct InpPlace {
-  int file = 0;  ///< into InpText::files
+  int file = 0;  ///< index into InpText::files
   int line = 0;  ///< from 1
 };
 
-/// The lines of an input file and of those that it includes, comments and blank lines left out.
+/// The lines of an input file and of its included files, without comments and blank lines.
 struct InpText {
   struct Line {
     std::string_view text;
     InpPlace place;
   };
   std::vector<std::filesystem::path> files;
-  std::deque<std::string> contents;  ///< what the lines point into
+  std::deque<std::string> contents;  ///< storage for the lines
   std::vector<Line> lines;
 
   /// @throws std::invalid_argument  "file:line: " and the parts
@@ -36,14 +36,14 @@ struct InpText {
   [[noreturn]] void fail(InpPlace at, const std::string& what) const;
 };
 
-/// @param folder  included files are in it, below it, or where the user trusts
+/// @param folder  included files must be in it, below it, or in folders that the user trusts
 /// @throws std::runtime_error     a file cannot be read
-/// @throws std::invalid_argument  a file is no input file, or one that it includes; files that include each other
+/// @throws std::invalid_argument  a file, or an included one, is not an input file; files include each other
 InpText read_inp_text(const std::filesystem::path&, const std::filesystem::path& folder);
 
-/// `*KEYWORD, NAME=value, FLAG`: upper case but for the values.
+/// `*KEYWORD, NAME=value, FLAG`: in upper case except the values.
 struct InpCard {
-  std::string keyword;  ///< without the star, inner blanks made one
+  std::string keyword;  ///< without the star, inner blanks reduced to one
   std::vector<std::pair<std::string, std::string>> parameters;
   InpPlace place;
   const std::string* find(std::string_view name) const;  ///< nullptr: not given
@@ -52,10 +52,9 @@ InpCard inp_card(std::string_view line, InpPlace);
 
 std::string upper(std::string_view);
 std::string_view trimmed(std::string_view);
-/// Cuts the next field off a data line; false when nothing is left. A comma at the end opens no
-/// field.
+/// Takes the next field off a data line; false when nothing is left. A comma at the end does not start a field.
 bool next_field(std::string_view& rest, std::string_view& field);
-bool to_number(std::string_view field, long& value);    ///< false: the field is no whole number
-bool to_number(std::string_view field, double& value);  ///< reads Fortran's 1.5D+00 too
+bool to_number(std::string_view field, long& value);    ///< false: the field is not a whole number
+bool to_number(std::string_view field, double& value);  ///< also reads Fortran's 1.5D+00
 
 }  // namespace pintle

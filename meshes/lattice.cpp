@@ -8,10 +8,10 @@ namespace pintle {
 
 namespace {
 
-/// The lattice refined by middle lines: 2 nx by 2 ny fields, or nx by ny for straight cells.
+/// The lattice refined by middle lines: 2 nx by 2 ny cells, or nx by ny for straight cells.
 struct Grid {
-  int nx, ny;     // fields
-  int per_field;  // lines per field
+  int nx, ny;     // cells
+  int per_field;  // lines per cell
   bool closed;
   int columns() const { return per_field * nx + (closed ? 0 : 1); }
   int rows() const { return per_field * ny + 1; }
@@ -42,7 +42,7 @@ void add_field(const Grid& g, Mesh& mesh, int i, int j, Cells& cells) {
   if (cells.shape == CellShape::quadrilateral8) return add({c[0], c[1], c[2], c[3], m[0], m[1], m[2], m[3]});
   if (cells.shape == CellShape::quadrilateral9) return add({c[0], c[1], c[2], c[3], m[0], m[1], m[2], m[3], centre});
   const int a = falls ? 1 : 0;
-  mesh.x.col(centre) = (mesh.x.col(c[a]) + mesh.x.col(c[a + 2])) / 2;  // the cut is straight
+  mesh.x.col(centre) = (mesh.x.col(c[a]) + mesh.x.col(c[a + 2])) / 2;  // the dividing line is straight
   if (falls) {
     add({c[0], c[1], c[3], m[0], centre, m[3]});
     return add({c[2], c[3], c[1], m[2], centre, m[1]});

@@ -5,18 +5,18 @@
 
 namespace pintle {
 
-/// What a mesh may take. A body that needs more is refused.
+/// Limits for meshing. A body that needs more is rejected.
 struct MesherLimits {
-  double seconds = 600;                      ///< by the clock
+  double seconds = 600;                      ///< elapsed time
   std::size_t bytes = std::size_t{8} << 30;  ///< of memory
-  bool (*stop)() = nullptr;                  ///< asked ten times a second by the threads that wait for a mesh; true: leave it
+  bool (*stop)() = nullptr;                  ///< called ten times a second by threads waiting for a mesh; true: stop
 };
 
-/// Holds for the whole process. Set them before bodies are made.
+/// Applies to the whole process. Set it before bodies are made.
 void set_mesher_limits(const MesherLimits&);
 MesherLimits mesher_limits();
 
-/// `stop` said so. Not an error of the body's.
+/// `stop` returned true. Not an error in the body.
 struct MeshingStopped : std::exception {
   const char* what() const noexcept override { return "meshing was stopped"; }
 };

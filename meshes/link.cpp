@@ -31,14 +31,13 @@ void validate_apart(const char* link, const char* a, const char* b, double dista
            (outer_a + outer_b) / 2, " m; move them apart or make them smaller");
 }
 
-/// The three eyes as a loop runs round them, counter-clockwise.
+/// The three eyes in counter-clockwise order.
 std::array<int, 3> turn_order(const Triangle& t) {
   const Vector2d a = t.center[1] - t.center[0], b = t.center[2] - t.center[0];
   return a.x() * b.y() - a.y() * b.x() >= 0 ? std::array{0, 1, 2} : std::array{0, 2, 1};
 }
 
-// Outward normal of the tangent from circle i on to circle j, material on the left: n·(c_j − c_i) =
-// R_i − R_j.
+// Outward normal of the tangent from circle i to circle j, with the material to its left: n·(c_j − c_i) = R_i − R_j.
 Vector2d tangent_normal(const Triangle& t, int i, int j) {
   const Vector2d d = t.center[j] - t.center[i];
   const double cosine = (t.eye[i].outer - t.eye[j].outer) / 2 / d.norm();
@@ -50,7 +49,7 @@ double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 Vector2d on_circle(const Vector2d& center, double radius, double angle) {
   return center + radius * Vector2d(std::cos(angle), std::sin(angle));
 }
-// Counter-clockwise from one angle on to another, in [0, 2π).
+// Counter-clockwise angle from one direction to another, in [0, 2π).
 double sweep(double from, double to) {
   const double s = std::fmod(to - from, 2 * pi);
   return s < 0 ? s + 2 * pi : s;
@@ -124,7 +123,7 @@ Loop circle(const Vector2d& center, double diameter, const std::string& name) {
   return loop;
 }
 
-// Joins arcs by straight edges and closes the loop, so that shared ends are the same to the bit.
+// Joins arcs by straight edges and closes the loop, with common ends identical to the bit.
 void close(Loop& loop, const std::string& name) {
   Loop out;
   for (std::size_t k = 0; k < loop.edges.size(); ++k) {

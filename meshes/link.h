@@ -8,10 +8,10 @@
 
 #include "eigen_layout.h"
 
-/// Links that need no drawing. All lengths in m; body axes as each says.
+/// Links that need no drawing. All lengths in m; body axes as described for each.
 namespace pintle {
 
-/// A round hole with the material around it.
+/// A round hole surrounded by material.
 struct Eye {
   double bore, outer;
 };  ///< diameters
@@ -20,18 +20,18 @@ struct Eye {
 struct StraightBar {
   double length, width;
 };
-/// Two eyes `length` apart, the first at (0, 0), the second at (length, 0), joined by a shank no wider than
-/// either. Holes "eye 1", "eye 2"; the outline is "outline".
+/// Two eyes `length` apart, the first at (0, 0), the second at (length, 0), connected by a shank that is not wider than either. Holes "eye
+/// 1", "eye 2"; the outline is "outline".
 struct EyeBar {
   double length, width;
   Eye first, second;
 };
-/// Trapezium from x = 0 to `length`, symmetric about the x axis. Edges as a straight bar's.
+/// Trapezium from x = 0 to `length`, symmetric about the x axis. Edges as for a straight bar.
 struct TaperedBar {
   double length, width_left, width_right;
 };
-/// Three eyes at the given centres, joined by the tangents of their outer circles (the convex hull).
-/// Holes "eye 1", "eye 2", "eye 3"; the outline is "outline".
+/// Three eyes at the given centres, connected by the tangents of their outer circles (the convex hull). Holes "eye 1", "eye 2", "eye 3";
+/// the outline is "outline".
 struct Triangle {
   Eigen::Vector2d center[3];
   Eye eye[3];
@@ -42,9 +42,8 @@ struct Disc {
 };
 
 using Link = std::variant<StraightBar, EyeBar, TaperedBar, Triangle, Disc>;
-/// @throws std::invalid_argument  a size is not positive or not finite; a bore not inside its eye; the outer
-///     circles of two eyes overlap; a shank wider than an eye; an eye of a triangle that does not reach its
-///     outline
+/// @throws std::invalid_argument  a size is not positive or not finite; a bore is not inside its eye; the outer circles of two eyes
+/// overlap; a shank is wider than an eye; an eye of a triangle does not reach its outline
 void judge(const Link&);
 
 /// A straight edge, or an arc about `center` of less than half a turn.
@@ -53,7 +52,7 @@ struct Edge {
   bool arc = false;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
 };
-/// Edges head to tail; `names` are their groups, one each.
+/// Edges in sequence; `names` are their groups, one each.
 struct Loop {
   std::vector<Edge> edges;
   std::vector<std::string> names;

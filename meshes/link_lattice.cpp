@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-constexpr double rounding = 1e-9;   // of a length of the link
-constexpr double narrowest = 0.25;  // of the size asked for
+constexpr double rounding = 1e-9;   // relative to a length of the link
+constexpr double narrowest = 0.25;  // relative to the requested size
 
 [[noreturn]] void reject_point(const Vector2d& p, const char* where) {
   std::ostringstream text;
@@ -34,7 +34,7 @@ double least_gap(const std::vector<double>& values) {
   return gap;
 }
 
-// The nodes nearest to the points are they, but for rounding on the way through the lattice's map.
+// Sets the nodes nearest to the points exactly; they differ only by rounding in the lattice's map.
 Mesh with_exact_points(Mesh mesh, const MeshOptions& o, double span) {
   for (const Vector2d& p : o.points)
     if (const int node = nearest_node(mesh, p, 1e-6 * span); node >= 0) mesh.x.col(node) = p;
@@ -43,7 +43,7 @@ Mesh with_exact_points(Mesh mesh, const MeshOptions& o, double span) {
 
 // u along the bar, v across it from −1 to 1.
 std::optional<Mesh> bar(double length, double left, double right, const MeshOptions& o) {
-  if (std::max(left, right) > 3 * std::min(left, right)) return std::nullopt;  // fields would be long and thin
+  if (std::max(left, right) > 3 * std::min(left, right)) return std::nullopt;  // cells would be long and thin
   const auto half_width = [=](double x) { return (left + (right - left) * x / length) / 2; };
   const double size = o.size > 0 ? o.size : std::sqrt(length * (left + right) / 2) / 10;
   validate_count(length * (left + right) / 2 / (size * size), size);
@@ -62,8 +62,8 @@ std::optional<Mesh> bar(double length, double left, double right, const MeshOpti
   return with_exact_points(lattice_mesh(l, o.shape), o, length);
 }
 
-// Radii from the bore outwards: rings as thick as their fields are long, none thicker than `size`,
-// scaled so that the last one ends at the rim, or at a radius that must be met.
+// Radii from the bore outwards: the rings are as thick as their cells are long, at most `size`, and scaled so that the last one ends at the
+// rim, or at a required radius.
 std::vector<double> rings(double inner, double outer, std::vector<double> through, double angle, double size) {
   through.insert(through.end(), {inner, outer});
   std::sort(through.begin(), through.end());
@@ -81,7 +81,7 @@ std::vector<double> rings(double inner, double outer, std::vector<double> throug
   return out;
 }
 
-// u the angle, clockwise so that with v the radius the fields turn counter-clockwise.
+// u is the angle, clockwise, so that with v as the radius the cells are counter-clockwise.
 std::optional<Mesh> disc(double inner, double outer, const MeshOptions& o) {
   const double size = o.size > 0 ? o.size : std::sqrt(pi * (outer * outer - inner * inner)) / 10;
   const double hole = o.hole_size > 0 ? o.hole_size : std::min(size, 2 * pi * inner / sides_round_hole);

@@ -6,10 +6,9 @@
 
 namespace pintle {
 
-/// The link cut by two families of lines, where that is natural: bars and discs of quadrilaterals.
-/// Lines run through the points that must become nodes; nothing is returned where that would make
-/// fields much narrower than the size asked for, nor for other links and shapes.
-/// @throws std::invalid_argument  a point lies outside the material
+/// The link divided by two families of lines, where that is natural: bars and discs of quadrilaterals. Lines run through the points that
+/// must become nodes; returns nothing where that would make cells much narrower than the requested size, and for other links and shapes.
+/// @throws std::invalid_argument  a point is outside the material
 std::optional<Mesh> lattice_link(const Link&, const MeshOptions&);
 
 }  // namespace pintle

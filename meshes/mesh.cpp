@@ -25,14 +25,14 @@ const ShapeFacts& facts_of(CellShape shape) { return facts[static_cast<std::size
 
 bool is_line(CellShape shape) { return corners_of(shape) == 2; }
 
-/// A side by its corners, in the direction its cell runs, and where it comes from.
+/// A side by its corners, in the direction of its cell, and its origin.
 struct Side {
   int a, b;
   std::size_t block, cell;
   int side;
 };
 
-// All sides of plane cells, those with the same lower corner together.
+// All sides of plane cells, those with the same lower corner adjacent.
 std::vector<Side> sides_by_lower_corner(const Mesh& mesh, std::vector<std::size_t>& begin) {
   const auto for_each = [&](auto&& f) {
     for (std::size_t k = 0; k < mesh.cells.size(); ++k) {

@@ -10,8 +10,8 @@
 
 namespace pintle {
 
-/// Shapes of cells. Nodes: corners counter-clockwise, then middles of the sides 12, 23, …, then the
-/// centre; a line: its ends, then its middle. VTK's and Gmsh's order.
+/// Shapes of cells. Nodes: corners counter-clockwise, then middles of the sides 12, 23, …, then the centre; for a line its ends, then its
+/// middle. This is the order of VTK and Gmsh.
 enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadrilateral8, quadrilateral9 };
 int nodes_of(CellShape);    ///< 2, 3, 3, 6, 4, 8, 9
 int corners_of(CellShape);  ///< 2, 2, 3, 3, 4, 4, 4
@@ -21,21 +21,21 @@ const char* name_of(CellShape);
 struct Cells {
   CellShape shape;
   std::vector<int> nodes;     ///< nodes_of(shape) per cell, columns of Mesh::x
-  std::vector<long> numbers;  ///< as the file or the mesher numbers the cells, for messages
+  std::vector<long> numbers;  ///< numbers of the cells in the file or from the mesher, for messages
   std::size_t size() const { return numbers.size(); }
 };
 
-/// A named part: a point, an edge or hole, a region, or a bare set of nodes.
+/// A named part: a point, an edge or hole, a region, or a set of nodes.
 struct Group {
   std::string name;
   std::vector<int> nodes;    ///< ascending, each once
-  std::vector<Cells> sides;  ///< line cells along it, the body on their left; empty for points and regions
+  std::vector<Cells> sides;  ///< line cells along it, with the body to their left; empty for points and regions
 };
 
 /// Nodes and cells of one body in its own axes. Every node belongs to a cell.
 struct Mesh {
   Eigen::Matrix2Xd x;              ///< [m]
-  std::vector<long> node_numbers;  ///< as the file numbers them, for messages
+  std::vector<long> node_numbers;  ///< numbers in the file, for messages
   std::vector<Cells> cells;        ///< all lines or all plane
   std::vector<Group> groups;
   bool plane() const;                               ///< cells are triangles and quadrilaterals, not lines
@@ -43,15 +43,15 @@ struct Mesh {
   std::size_t cell_count() const;
 };
 
-/// Sides of plane cells that belong to one cell alone, the body on their left.
+/// Sides of plane cells that belong to a single cell, with the body to their left.
 std::vector<Cells> outline(const Mesh&);
-/// Those sides of the outline whose nodes all belong to `nodes` (ascending).
+/// Those sides of the outline with all nodes in `nodes` (ascending).
 std::vector<Cells> sides_within(const Mesh&, const std::vector<int>& nodes);
-/// The node within `reach` of a place nearest to it, or −1.
+/// The nearest node within `reach` of a point, or −1.
 int nearest_node(const Mesh&, const Eigen::Vector2d& at, double reach);
-/// Number of pieces that no cell joins; pieces[i] is that of node i, from 0.
+/// Number of unconnected pieces; pieces[i] is that of node i, from 0.
 int pieces(const Mesh&, std::vector<int>& piece_of_node);
-/// Drops nodes that no cell uses and renumbers the rest.
+/// Removes nodes that no cell uses and renumbers the rest.
 void drop_unused_nodes(Mesh&);
 
 }  // namespace pintle

@@ -32,7 +32,7 @@ namespace {
 
 using clock = std::chrono::steady_clock;
 
-/// The environment of the mesher: libraries keep to one thread, and it is no process of MPI's.
+/// The environment of the mesher: libraries use one thread, and it is not an MPI process.
 std::vector<std::string> environment() {
   std::vector<std::string> out{"OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1"};
   const auto dropped = [](std::string_view e) {
@@ -53,7 +53,7 @@ struct SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
 };
 
-/// One mesher: its process and the line to it. It lives as long as the line is open.
+/// One mesher: its process and the connection to it. It lives as long as the connection is open.
 class Worker {
  public:
   Worker() : program_(program_beside_modules("pintle-mesher")) {
@@ -82,7 +82,7 @@ class Worker {
   bool usable() const { return line_ >= 0 && owner_ == getpid(); }
 
   bool send(const std::string& words) const { return send_message(line_, words); }
-  /// @returns false  the line has ended   @throws MeshingStopped
+  /// @returns false  the connection has ended   @throws MeshingStopped
   bool receive(std::string& words, std::uint64_t most, clock::time_point until, bool (*stop)()) {
     std::uint64_t length = 0;
     if (!receive(&length, sizeof length, until, stop) || length > most) return false;
@@ -91,11 +91,11 @@ class Worker {
   }
   bool late() const { return late_; }
 
-  /// Ends the process, if it has not ended, and waits for it. @returns its exit code, 128 + signal if one killed it
+  /// Ends the process, if it is still running, and waits for it. @returns its exit code, 128 + signal if one killed it
   int end(bool by_force = true) {
     if (line_ < 0) return 0;
     ::close(std::exchange(line_, -1));
-    if (owner_ != getpid()) return 0;  // a fork of this program holds a copy of the line, not the process
+    if (owner_ != getpid()) return 0;  // a fork of this program has a copy of the connection, but does not own the process
     if (by_force) kill(process_, SIGKILL);
     int status = 0;
     while (waitpid(process_, &status, 0) < 0)
@@ -115,7 +115,7 @@ class Worker {
 #if !defined(__SANITIZE_ADDRESS__)
     posix_spawn_file_actions_addopen(&s.files, 2, "/dev/null", O_WRONLY, 0);
 #endif
-    // Whether Ctrl-C ends the work is for this program to say; when it ends, so does the mesher.
+    // This program decides whether Ctrl-C ends the work; when it ends, so does the mesher.
     sigset_t blocked, all;
     sigemptyset(&blocked), sigfillset(&all);
     for (const int s_ : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) sigaddset(&blocked, s_);
@@ -152,7 +152,7 @@ class Worker {
 
 std::mutex idle_mutex;
 
-/// Meshers that wait for a task.
+/// Meshers waiting for a task.
 std::vector<std::unique_ptr<Worker>>& idle() {
   static std::vector<std::unique_ptr<Worker>> workers;
   return workers;
@@ -219,7 +219,7 @@ Mesh mesh_elsewhere(const MesherTask& task) {
   const MesherLimits limits = mesher_limits();
   const std::string name = task.link ? "link" : task.file, words = packed(task);
   std::unique_ptr<Worker> worker = draw_worker();
-  if (!worker || !worker->send(words)) {  // none, or one that was ended from outside
+  if (!worker || !worker->send(words)) {  // none, or one that was killed from outside
     worker = std::make_unique<Worker>();
     worker->send(words);
   }

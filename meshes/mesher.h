@@ -6,13 +6,13 @@
 
 #include "meshes/gmsh.h"
 
-/// Gmsh in a process of its own, `pintle-mesher`, which stands beside the modules (meshes/module.h). It crashes, hangs
-/// and runs out of memory for itself alone, and can do nothing but read the drawing (meshes/confine.h).
+/// Gmsh in a separate process, `pintle-mesher`, which is located next to the modules (meshes/module.h). A crash, a hang or lack of memory
+/// there does not affect this process, and it can only read the drawing (meshes/confine.h).
 namespace pintle {
 
-/// What the mesher is to do, once its input is judged and needs Gmsh indeed.
+/// Task for the mesher, for input that has been checked and needs Gmsh.
 struct MesherTask {
-  std::optional<Link> link;  ///< or else `file`
+  std::optional<Link> link;  ///< otherwise `file`
   std::string file;          ///< a drawing or a mesh
   double scale = 1;
   MeshOptions options;
@@ -22,14 +22,14 @@ struct MesherTask {
   double most_bytes = 0;             ///< of address space
 };
 
-/// The mesh that a process of its own makes.
+/// The mesh made by a separate process.
 /// @throws as mesh_link and read_geometry; MeshingStopped
 Mesh mesh_elsewhere(const MesherTask&);
 
-// What the two processes agree on. At its start the mesher says which version it is. A message is its length, 8 bytes,
-// then as many; an answer's first byte is its kind. A task is worked on by a child of the mesher's, which has Gmsh
-// loaded already; if that ends otherwise than by an answer, the mesher ends with the exit code it came to.
+// Protocol of the two processes. At its start the mesher sends its version. A message is its length, 8 bytes, followed by that many bytes;
+// the first byte of an answer is its kind. A task is executed by a child of the mesher, which has Gmsh loaded already; if the child ends
+// without an answer, the mesher ends with the child's exit code.
 enum class Answer : char { mesh, invalid_argument, runtime_error, out_of_memory };
-inline constexpr int killed_by = 128;  ///< exit codes from here on: by signal code − 128
+inline constexpr int killed_by = 128;  ///< exit codes from here on: killed by signal code − 128
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// pintle-mesher: makes meshes for the library that started it, which is at the other end of its standard input.
+// pintle-mesher: makes meshes for the library that started it, which communicates through its standard input.
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -39,7 +39,7 @@ bool receive(void* data, std::size_t size) {
 std::string answer(Answer kind, const std::string& words) { return static_cast<char>(kind) + words; }
 
 void limit_memory(double bytes) {
-#if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer reserves terabytes
   const rlimit space{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
   setrlimit(RLIMIT_AS, &space);
 #else
@@ -49,7 +49,7 @@ void limit_memory(double bytes) {
   setrlimit(RLIMIT_CORE, &none);
 }
 
-/// What this system offers; to be told that it offers nothing shows what happens then.
+/// Confines the process as far as the system allows; an environment variable disables this for tests.
 bool shut_in(const std::vector<std::string>& folders) {
   const bool offered = std::getenv("PINTLE_NO_CONFINEMENT") == nullptr;
   clearenv();  // a script could read it
@@ -73,7 +73,7 @@ std::string worked_on(const std::string& words) {
     return answer(Answer::mesh, packed(made(task)));
   } catch (const std::bad_alloc&) {
     return answer(Answer::out_of_memory, {});
-  } catch (const std::length_error&) {  // a list that is too long for any memory
+  } catch (const std::length_error&) {  // a list too long for any memory
     return answer(Answer::out_of_memory, {});
   } catch (const std::invalid_argument& e) {
     return answer(Answer::invalid_argument, e.what());
@@ -84,7 +84,7 @@ std::string worked_on(const std::string& words) {
 
 extern "C" void wake(int) {}
 
-/// The child's exit code, 128 + signal if one ended it; −1 if the library hung up before.
+/// The child's exit code, 128 + signal if one killed it; −1 if the library disconnected before.
 int outcome(pid_t child, const sigset_t& awake) {
   for (;;) {
     int status = 0;
@@ -104,7 +104,7 @@ int serve() {
   sigaction(SIGCHLD, &on_child, nullptr);
   sigset_t child, awake;
   sigemptyset(&child), sigaddset(&child, SIGCHLD);
-  sigprocmask(SIG_BLOCK, &child, &awake);  // but while waiting for one
+  sigprocmask(SIG_BLOCK, &child, &awake);  // except while waiting for one
   const pid_t self = getpid();
   if (!send_message(line, PINTLE_VERSION)) return 1;
   for (std::uint64_t length = 0; receive(&length, sizeof length);) {
@@ -127,12 +127,12 @@ int serve() {
 }  // namespace pintle
 
 #if defined(__SANITIZE_ADDRESS__)
-// A crash ends the process by its signal; leaks are not looked for, since that takes a process, which is forbidden here.
+// A crash ends the process by its signal; leaks are not checked, since that needs a process, which is forbidden here.
 extern "C" const char* __asan_default_options() { return "handle_segv=0:detect_leaks=0"; }
 #endif
 
 int main() {
-  std::setlocale(LC_ALL, "C.UTF-8");  // Gmsh asks for it too, when no file can be opened any more
+  std::setlocale(LC_ALL, "C.UTF-8");  // Gmsh sets it too, but when no file can be opened any more
   std::setlocale(LC_NUMERIC, "C");
   return pintle::serve();
 }

@@ -23,7 +23,7 @@ void add_path_of(void* object, std::vector<std::string>& out) {
   for (unsigned i = 0; i < info->dls_cnt; ++i) out.emplace_back(info->dls_serpath[i].dls_name);
 }
 
-/// Where the program, and this library if it is shared, seek their libraries, in this order.
+/// Where the program, and this library if it is shared, look for their libraries, in this order.
 std::vector<std::string> search_path() {
   std::vector<std::string> out;
   add_path_of(dlopen(nullptr, RTLD_LAZY), out);
@@ -37,7 +37,7 @@ void* open(const std::string& file, std::string& why) {
   constexpr int how = RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE;
   if (void* found = dlopen(file.c_str(), how)) return found;
   why = dlerror();
-  // A sanitizer that stands in for dlopen hides who asks, and with it the program's RUNPATH.
+  // A sanitizer that replaces dlopen hides the caller, and with it the program's RUNPATH.
   for (const std::string& folder : search_path()) {
     const std::string path = folder + "/" + file;
     if (access(path.c_str(), R_OK) != 0) continue;

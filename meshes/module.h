@@ -4,17 +4,17 @@
 
 namespace pintle {
 
-/// A part of the library that stands in a shared object of its own, libpintle_NAME.so, because what it links takes
-/// longer to load than many a run takes: it is loaded when it is first called for, and stays.
+/// A part of the library in a separate shared object, libpintle_NAME.so, because the libraries it links take longer to load than many runs:
+/// it is loaded when first needed, and stays loaded.
 ///
-/// It is sought where the program, or the library if that is shared, seeks its own libraries (RUNPATH), then where
-/// the system does (LD_LIBRARY_PATH and the rest). CMake sets RUNPATH for whoever links pintle::pintle.
-/// @returns what its function pintle_NAME() returns: a table of functions, the first member of which is the version
-///     it was built as, a `const char*`
+/// It is searched for where the program, or the library if that is shared, looks for its own libraries (RUNPATH), then where the system
+/// does (LD_LIBRARY_PATH etc.). CMake sets RUNPATH for targets that link pintle::pintle.
+/// @returns the result of its function pintle_NAME(): a table of functions, whose first member is the version it was built as, a `const
+/// char*`
 /// @throws std::runtime_error  it cannot be found or loaded, or belongs to another version
 const void* load_module(const char* name);
 
-/// Path of a program that stands beside the modules.  @throws std::runtime_error  it is not there
+/// Path of a program located next to the modules.  @throws std::runtime_error  it does not exist
 std::string program_beside_modules(const std::string& name);
 
 /// The table of a module; Table begins with `const char* version`.

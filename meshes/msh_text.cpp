@@ -29,7 +29,7 @@ bool number(std::string_view& line, T& value) {
   std::string_view text = word(line);
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool tiny = error == std::errc::result_out_of_range && text.find("e-") != text.npos;  // below what a double holds
+  const bool tiny = error == std::errc::result_out_of_range && text.find("e-") != text.npos;  // below the range of double
   if (tiny) value = 0;
   return (error == std::errc() || tiny) && end == text.data() + text.size();
 }
@@ -91,7 +91,7 @@ struct Msh {
            ": each number may define one element only, and Gmsh would ignore one");
   }
 
-  // Version 2: a count, then a line for each.
+  // Version 2: a count, then one line each.
   void nodes_2() {
     long count = 0;
     read(entry("the count", 1), "count of nodes", count);

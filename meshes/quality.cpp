@@ -15,8 +15,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// A Jacobian this small is rounding of zero: coordinates carry 16 digits, cells seldom span less
-// than a thousandth of the body.
+// A Jacobian below this is zero up to rounding: coordinates have 16 digits, and cells are rarely smaller than a thousandth of the body.
 constexpr double zero_jacobian = 1e-10;
 
 using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 9, 2>;  // ∂N/∂ξ, ∂N/∂η of every node
@@ -46,7 +45,7 @@ Slopes quadrilateral_slopes(int nodes, double xi, double eta) {
     const double a = square[static_cast<std::size_t>(i)][0], b = square[static_cast<std::size_t>(i)][1];
     if (nodes == 4) {
       d.row(i) << a * (1 + b * eta) / 4, b * (1 + a * xi) / 4;
-    } else if (nodes == 9) {  // products of the line's three quadratics
+    } else if (nodes == 9) {  // products of the three quadratics of a line
       const auto value = [](double p, double t) { return p == 0 ? 1 - t * t : t * (t + p) / 2; };
       const auto slope = [](double p, double t) { return p == 0 ? -2 * t : t + p / 2; };
       d.row(i) << slope(a, xi) * value(b, eta), value(a, xi) * slope(b, eta);
@@ -82,7 +81,7 @@ double scaled_jacobian(const Matrix2d& J, bool is_triangle) {
   return a > 0 && b > 0 ? unit * cross(J.col(0), J.col(1)) / (a * b) : 0;
 }
 
-// From the side that leaves the corner to the side that comes into it, backwards.
+// From the side that leaves the corner to the side that enters it, reversed.
 double corner_angle(const Matrix2d& J, int corner, bool is_triangle) {
   const Vector2d u = J.col(0), v = J.col(1);
   Vector2d out, back;
@@ -97,8 +96,8 @@ double corner_angle(const Matrix2d& J, int corner, bool is_triangle) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-// 1, or less than 0 where a middle node lies so near an end that the side sets out the wrong way:
-// past a quarter of its length. Where two such sides meet, the Jacobian is positive again.
+// 1, or negative where a middle node is so near an end (within a quarter of the side's length) that the side starts in the wrong direction.
+// Where two such sides meet, the Jacobian is positive again.
 double side_sense(const Vector2d& a, const Vector2d& b, const Vector2d& middle) {
   const double s = (middle - a).dot(b - a) / (b - a).squaredNorm(), out = 4 * std::min(s, 1 - s) - 1;
   return out < 0 ? out : 1;
@@ -177,7 +176,7 @@ MeshQuality quality(const Mesh& mesh) {
 }
 
 void orient(Mesh& mesh) {
-  std::vector<std::pair<int, int>> turned;  // sides of the cells turned over, as they ran before
+  std::vector<std::pair<int, int>> turned;  // sides of the reversed cells, in their previous direction
   for (Cells& cells : mesh.cells) {
     const int n = nodes_of(cells.shape), corners = corners_of(cells.shape);
     if (corners == 2) continue;

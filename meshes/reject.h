@@ -5,7 +5,7 @@
 
 namespace pintle {
 
-/// Throws std::invalid_argument with the parts put together as a stream would print them.
+/// Throws std::invalid_argument with the parts joined as a stream would print them.
 template <class... Parts>
 [[noreturn]] void reject(const Parts&... parts) {
   std::ostringstream text;

@@ -11,10 +11,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A closed run of sides, the body on their left.
+/// A closed loop of sides, with the body to their left.
 struct Chain {
   std::vector<int> sides;
-  double area = 0;  // negative: it goes round a hole
+  double area = 0;  // negative: around a hole
   Vector2d center = Vector2d::Zero();
 };
 
@@ -120,7 +120,7 @@ void name_loops(Mesh& mesh, const Rim& rim) {
   std::erase_if(free, [&](const Chain& c) {
     return std::any_of(c.sides.begin(), c.sides.end(), [&](int s) { return taken[static_cast<std::size_t>(s)] != 0; });
   });
-  // Centres that differ by rounding or by where nodes happen to lie on a rim are at one x.
+  // Centres whose x differs only by rounding, or by the positions of nodes on a rim, count as equal in x.
   const Vector2d low = mesh.x.rowwise().minCoeff(), span = mesh.x.rowwise().maxCoeff() - low;
   const double unit = 1e-3 * span.maxCoeff();
   const auto key = [&](const Chain& c) { return std::tuple{std::lround((c.center.x() - low.x()) / unit), c.center.y()}; };

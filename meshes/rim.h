@@ -8,14 +8,14 @@
 
 namespace pintle {
 
-/// The outline of a plane mesh, to be searched by its sides' ends.
+/// The outline of a plane mesh, searchable by the ends of its sides.
 class Rim {
  public:
   explicit Rim(const Mesh&);
   const std::vector<Cells>& cells() const { return cells_; }
-  /// The side between two corners, counted through the blocks; −1: there is none on the outline.
+  /// The index, over all blocks, of the side between two corners; −1: it is not on the outline.
   int find(int a, int b) const;
-  /// Puts sides, by such numbers, into a group, and their nodes. Sides named twice count once.
+  /// Adds sides, by these indices, to a group, with their nodes. Sides listed twice count once.
   void add_to(Group&, std::vector<int> sides) const;
 
  private:
@@ -23,9 +23,8 @@ class Rim {
   std::vector<std::pair<std::pair<int, int>, int>> sorted_;  // corners, the lower first; side
 };
 
-/// Makes groups of the closed loops of the outline that no group's side touches: "outline" for one
-/// that goes round the body, "hole 1", "hole 2", … for the others, by their centres from left to
-/// right, then from below. A name that is taken is passed over.
+/// Makes groups of the closed loops of the outline that no group's side touches: "outline" for one around the body, "hole 1", "hole 2", …
+/// for the others, ordered by their centres from left to right, then from below. Names already in use are skipped.
 void name_loops(Mesh&, const Rim&);
 
 /// Each once, ascending.

@@ -11,8 +11,8 @@ namespace pintle {
 using Eigen::Vector2d;
 
 namespace {
-// An arc of the outline: cells no longer than a twelfth of its full circle, nor shorter than a
-// fiftieth of the largest, however sharp a fillet is.
+// On an arc of the outline, cells are at most a twelfth of its full circle, but at least a fiftieth of the largest size, however sharp a
+// fillet is.
 constexpr double least_share = 0.02;
 }  // namespace
 
@@ -69,7 +69,7 @@ SizeField size_field(const std::vector<Contour>& contours, double size, double h
     const Contour& c = contours[k];
     if (k > 0 && hole_size > 0) validate_count(c.length() / hole_size / SizeField::growth, hole_size);
     const double of_hole = hole_size > 0 ? hole_size : c.length() / sides_round_hole;
-    std::size_t last = c.points.size();  // that became a source; those much nearer than a cell add nothing
+    std::size_t last = c.points.size();  // the last source; points much nearer than a cell are skipped
     for (std::size_t i = 0; i < c.points.size(); ++i) {
       double at = of_hole;
       if (k == 0) {

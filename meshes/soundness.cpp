@@ -17,15 +17,15 @@ namespace {
 using Box = Squares::Box;
 using Eigen::Vector2d;
 
-constexpr double nearness = 1e-6;  ///< of a side's length: nearer is there
-constexpr double doubtful = 1e-3;  ///< nearer is hardly apart
+constexpr double nearness = 1e-6;  ///< relative to a side's length: a nearer point is on it
+constexpr double doubtful = 1e-3;  ///< nearer points are suspicious
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 struct Check {
   const Mesh& mesh;
   std::vector<CellView> cells = cell_views(mesh);
-  std::vector<SideView> rim{};  ///< sides of one cell alone
+  std::vector<SideView> rim{};  ///< sides of a single cell
   Soundness found{};
 
   std::string place(const Vector2d& p) const {
@@ -38,7 +38,7 @@ struct Check {
   std::string nodes(int a, int b) const { return node(a) + " and " + node(b); }
   std::string cell(int c) const { return "cell " + std::to_string(cells[index(c)].number) + " (" + name_of(cells[index(c)].shape) + ")"; }
   double length(const SideView& s) const { return (at(s.a) - at(s.b)).norm(); }
-  /// "; 3 in all" where there is more than one.
+  /// "; 3 in all" if there is more than one.
   static std::string in_all(std::size_t count) { return count > 1 ? "; there are " + std::to_string(count) + " such places" : ""; }
 
   std::vector<int> corners(int c) const {
@@ -48,7 +48,7 @@ struct Check {
     return out;
   }
 
-  // Sides between the same two corners: one lies on the rim, two belong to neighbours and run against each other.
+  // Sides between the same two corners: a single one is on the rim, two belong to neighbours and have opposite directions.
   void meetings() {
     const std::vector<SideView> sides = paired_sides(cells);
     std::set<std::pair<int, int>> twice, stacked;
@@ -99,7 +99,7 @@ struct Check {
     }
   }
 
-  // A node in the middle of one cell's side and at a corner of another: two short sides along a long one.
+  // A node that is in the middle of one cell's side and at a corner of others: two short sides along a long one.
   void corners_in_middles() {
     std::vector<int> corner_of(index(static_cast<int>(mesh.x.cols())), -1);
     for (std::size_t c = 0; c < cells.size(); ++c)
@@ -149,7 +149,7 @@ struct Check {
     return std::find(view.nodes, view.nodes + nodes_of(view.shape), n) != view.nodes + nodes_of(view.shape);
   }
 
-  // Nodes of the rim that lie at another one, or on a side that they are no node of.
+  // Nodes of the rim that coincide with another node, or lie on a side to which they do not belong.
   void strangers() {
     struct Hanging {
       int node, side;
@@ -193,7 +193,7 @@ struct Check {
     slits(pairs);
   }
 
-  // Whether p lies on the right of the side, where its cell is not.
+  // Whether p is to the right of the side, outside its cell.
   bool beyond(const SideView& s, double t, const Vector2d& p) const {
     const double h = 1e-3, low = std::max(0.0, t - h), high = std::min(1.0, t + h);
     const Vector2d along = on_side(mesh, s, high) - on_side(mesh, s, low), off = p - on_side(mesh, s, t);
@@ -205,7 +205,7 @@ struct Check {
     std::vector<int> same(index(static_cast<int>(mesh.x.cols())));
     std::iota(same.begin(), same.end(), 0);
     for (const auto& [low, high] : pairs) same[index(high)] = std::min(same[index(high)], same[index(low)]);
-    std::map<std::pair<int, int>, std::vector<int>> on;  // sides between the same places
+    std::map<std::pair<int, int>, std::vector<int>> on;  // sides between the same points
     for (std::size_t k = 0; k < rim.size(); ++k)
       on[std::minmax(same[index(rim[k].a)], same[index(rim[k].b)])].push_back(static_cast<int>(k));
     std::vector<std::pair<int, int>> shut;
@@ -225,7 +225,7 @@ struct Check {
                                 "; merge nodes at the same position, unless a crack is intended");
   }
 
-  // Where more than two sides of the rim end in one corner, cells turn about it.
+  // Corners where more than two sides of the rim end: cells can rotate about them.
   void hinges() {
     std::vector<int> ends(index(static_cast<int>(mesh.x.cols())), 0);
     for (const SideView& s : rim) ++ends[index(s.a)], ++ends[index(s.b)];
@@ -239,8 +239,8 @@ struct Check {
                                   "; join them along a side");
   }
 
-  // Crossing a side of the rim changes the number of cells over a place by one, so whatever lies under two cells has such a side
-  // around it, and a little to the left of that are two cells.
+  // Crossing a side of the rim changes the number of cells covering a point by one. So any doubly covered region has such a side on its
+  // boundary, and slightly to the left of it there are two cells.
   void overlaps() {
     std::vector<Box> boxes;
     for (const CellView& view : cells) {

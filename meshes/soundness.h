@@ -9,17 +9,17 @@
 
 namespace pintle {
 
-/// Whether plane cells make one sheet: neighbours share a whole side with all its nodes, and no place is covered twice.
-/// Each entry names cells, nodes and the place, and says what to do.
+/// Checks that plane cells form one sheet: neighbours share a complete side with all its nodes, and no point is covered twice. Each entry
+/// names cells, nodes and the position, and gives a remedy.
 struct Soundness {
-  std::vector<std::string> faults;       ///< another body than meant: cells twice, overlaps, nodes on a side that it lacks
-  std::vector<std::string> warnings_of;  ///< may be meant: slits, cells that meet at one node alone
+  std::vector<std::string> faults;       ///< not the intended body: duplicate cells, overlaps, nodes on a side that lacks them
+  std::vector<std::string> warnings_of;  ///< possibly intended: slits, cells that meet only at a node
 };
-/// Lengths are compared with those of the sides at hand: what is nearer than 1e-6 of a side lies on it, what is nearer than 1e-3 of it
-/// is doubted. Overlaps are found where a tenth of a cell or more lies under another. @pre cells run counter-clockwise and are not inverted
+/// Lengths are relative to those of the sides concerned: a point nearer than 1e-6 of a side lies on it, one nearer than 1e-3 is suspicious.
+/// Overlaps of a tenth of a cell or more are found. @pre cells are counter-clockwise and not inverted
 Soundness soundness(const Mesh&);
 
-/// Two nodes at one place that belong to different pieces; `piece` as `pieces` gives it.
+/// Two coinciding nodes that belong to different pieces; `piece` is from `pieces`.
 std::optional<std::pair<int, int>> unjoined(const Mesh&, const std::vector<int>& piece);
 
 }  // namespace pintle

@@ -7,7 +7,7 @@ namespace pintle {
 Squares::Squares(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   for (const Box& box : boxes_) all_.extend(box);
   if (boxes_.empty()) return;
-  // About as many squares as boxes; along a line no more either.
+  // About as many squares as boxes, also along a line.
   const Eigen::Vector2d span = all_.sizes();
   const double count = static_cast<double>(boxes_.size());
   side_ = std::max(std::sqrt(span.x() * span.y() / count), span.maxCoeff() / count);

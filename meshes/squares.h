@@ -11,12 +11,12 @@
 
 namespace pintle {
 
-/// Boxes sorted into the squares of a grid, so that those near a place are found without looking at all of them.
+/// Boxes sorted into the squares of a grid, so that those near a point are found without checking all of them.
 class Squares {
  public:
   using Box = Eigen::AlignedBox2d;
   explicit Squares(std::vector<Box> boxes);
-  /// Calls f(i) once for each box i that meets `box`, in no order that matters to the caller.
+  /// Calls f(i) once for each box i that meets `box`, in arbitrary order.
   template <class F>
   void each(const Box& box, F&& f) const {
     if (boxes_.empty() || !all_.intersects(box)) return;
@@ -27,7 +27,7 @@ class Squares {
         for (std::size_t k = begin_[at(x, y)]; k < begin_[at(x, y) + 1]; ++k) {
           const Box& other = boxes_[static_cast<std::size_t>(items_[k])];
           if (!other.intersects(box)) continue;
-          // A box in several squares counts in the first of those that both share.
+          // A box in several squares is handled in the first of those that both share.
           const auto first = square(other.min().cwiseMax(box.min()));
           if (first == std::pair{x, y}) f(items_[k]);
         }

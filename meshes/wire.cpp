@@ -48,10 +48,10 @@ struct Unpacker {
   std::uint64_t size() {
     std::uint64_t n = 0;
     one(n);
-    if (n > rest.size()) spoilt();  // every item has a byte or more
+    if (n > rest.size()) spoilt();  // every item has at least one byte
     return n;
   }
-  /// Grows with what is there, whatever length is claimed.
+  /// Grows with the data present, whatever length is claimed.
   template <class List, class Pass>
   void each(List& list, Pass pass_one) {
     list.clear();
@@ -63,7 +63,7 @@ struct Unpacker {
   }
 };
 
-// One description for both ways: `pass` writes what it is given, or reads into it.
+// One description for both directions: `pass` writes its argument, or reads into it.
 
 template <class Archive, Number T>
 void pass(Archive& a, T& value) {
@@ -168,7 +168,7 @@ void pass(Archive& a, Mesh& m) {
 }
 
 template <class T>
-std::string bytes_of(T value) {  // a copy: `pass` takes what it could also read into
+std::string bytes_of(T value) {  // a copy, because `pass` takes an argument that it could read into
   Packer packer;
   pass(packer, value);
   return std::move(packer.bytes);
@@ -183,7 +183,7 @@ T read_back(std::string_view bytes) {
   return value;
 }
 
-// Whoever reads the mesh relies on this, and the process that made it has read a file of unknown origin.
+// Users of the mesh rely on this, and the process that made it has read a file of unknown origin.
 void judge(const std::vector<int>& nodes, std::size_t count) {
   if (std::ranges::any_of(nodes, [&](int n) { return n < 0 || static_cast<std::size_t>(n) >= count; })) spoilt();
 }

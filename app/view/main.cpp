@@ -1,4 +1,4 @@
-// pintle-view SCENE, for `pintle view`: a page that shows a scene as it is written, to look at and to move by hand.
+// pintle-view SCENE, for `pintle view`: a page that shows a scene as written, to inspect and move by hand.
 #include <CLI/CLI.hpp>
 
 #include <iostream>

@@ -18,7 +18,7 @@ namespace pintle::app {
 
 namespace {
 
-/// 128 bits that no other process knows.
+/// 128 random bits unknown to other processes.
 std::string unguessable() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
@@ -39,7 +39,7 @@ struct ViewServer::Server {
   std::string token = unguessable();
   int port = 0;
 
-  /// A request that a page of ours makes, or the user's browser for it: to this address by its name, from no other site.
+  /// A request from our page, or from the user's browser for it: to this address by its name, not from another site.
   bool is_ours(const httplib::Request& request) const {
     const std::string host = request.get_header_value("Host"), origin = request.get_header_value("Origin");
     const std::string here = "127.0.0.1:" + std::to_string(port), site = request.get_header_value("Sec-Fetch-Site");
@@ -74,12 +74,12 @@ ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_uniqu
   constexpr std::size_t largest_request = 1 << 16;
   http.set_payload_max_length(largest_request);
   http.set_keep_alive_max_count(1000);
-  http.set_socket_options([](socket_t) {});                          // else two programs could share one port
-  http.new_task_queue = [] { return new httplib::ThreadPool(32); };  // so many connections may say nothing
+  http.set_socket_options([](socket_t) {});                          // otherwise two programs could share a port
+  http.new_task_queue = [] { return new httplib::ThreadPool(32); };  // this many connections may be idle
   http.set_read_timeout(5);
   http.set_write_timeout(5);
   http.set_keep_alive_timeout(2);
-  // Of a request with a body of a length that is not said the end would be waited for.
+  // A request with a body of unknown length would make the server wait for its end.
   http.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
     const bool reads = request.method == "GET" || request.method == "HEAD", posts = request.method == "POST";
     if (reads || (posts && request.has_header("Content-Length"))) return httplib::Server::HandlerResponse::Unhandled;

@@ -8,15 +8,14 @@
 
 namespace pintle::app {
 
-/// The page of a scene, served to this machine alone: on 127.0.0.1, under a path that nobody can guess. server.cpp is the one file that
-/// includes httplib.h.
+/// The page of a scene, served only to this machine: on 127.0.0.1, under a path that cannot be guessed. Only server.cpp includes httplib.h.
 class ViewServer {
  public:
-  /// @param port  0: any that is free   @throws std::runtime_error  the port cannot be had
+  /// @param port  0: any free port   @throws std::runtime_error  the port is not available
   ViewServer(ViewSession&, int port);
   ~ViewServer();
   std::string address() const;  ///< for a browser
-  /// Serves until `stop` says so, which is asked some times a second.
+  /// Serves until `stop` returns true; it is called several times a second.
   void serve(const std::function<bool()>& stop);
 
  private:

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Eigen::Vector2d;
 
-/// When each file that the scene may read from its folder was saved, itself among them while it is there.
+/// The modification times of all files in its folder that the scene may read, including the scene itself if it exists.
 std::map<fs::path, fs::file_time_type> saved_files(const fs::path& scene) {
   std::map<fs::path, fs::file_time_type> out;
   const auto add = [&](const fs::path& file) {
@@ -50,7 +50,7 @@ Json lines_json(const Drawing& drawing) {
 
 }  // namespace
 
-/// A scene made ready to be moved: rigid, as `pintle kinematics` takes it.
+/// A scene prepared for moving: rigid, as in `pintle kinematics`.
 struct ViewSession::Assembled {
   Scene scene;
   Model model;
@@ -85,7 +85,7 @@ struct ViewSession::Assembled {
     return out;
   }
 
-  /// Of each freedom the velocities of all markers on bodies.
+  /// For each degree of freedom, the velocities of all markers on bodies.
   Json freedoms_json() const {
     constexpr int most = 12;
     const Eigen::MatrixXd motions = hand->freedoms(most);
@@ -129,7 +129,7 @@ void ViewSession::read_if_saved() {
   try {
     assembled_ = std::make_unique<Assembled>(read_scene(scene_, overrides_));
   } catch (const std::exception& e) {
-    error_ = e.what();  // what was there before stays on the page
+    error_ = e.what();  // the previous content stays on the page
   }
 }
 

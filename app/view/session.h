@@ -13,19 +13,19 @@
 
 namespace pintle::app {
 
-/// A scene as it is looked at: read again when a file of its folder is saved, moved by hand. Answers are JSON, errors included. For
-/// several threads.
+/// A scene being viewed: read again when a file in its folder is saved, and movable by hand. Answers are JSON, including errors.
+/// Thread-safe.
 class ViewSession {
  public:
   ViewSession(std::filesystem::path scene, Overrides);
   ~ViewSession();
 
-  /// What is to be drawn, or {"version": n} alone if that is what the page has.
+  /// What is to be drawn, or only {"version": n} if the page already has it.
   std::string now(long known);
   /// @param request  {"version", "body", "point": [x, y], "to": [x, y]}, the point in the body's axes from its mass centre
-  /// @returns nothing: that is no such request
+  /// @returns nothing: it is not such a request
   std::optional<std::string> drag(const std::string& request);
-  /// As the scene assembles it.
+  /// Resets it to the assembled configuration of the scene.
   std::string again();
 
  private:
@@ -36,8 +36,8 @@ class ViewSession {
   std::filesystem::path scene_;
   Overrides overrides_;
   std::mutex one_at_a_time_;
-  long version_ = 0;                                                        ///< of the files and the pose
-  std::map<std::filesystem::path, std::filesystem::file_time_type> saved_;  ///< files that the scene may read from its folder
+  long version_ = 0;                                                        ///< of the files and the configuration
+  std::map<std::filesystem::path, std::filesystem::file_time_type> saved_;  ///< files in its folder that the scene may read
   std::string error_;
   std::unique_ptr<Assembled> assembled_;
 };

@@ -6,18 +6,19 @@
 #include "framework/bodies/load_history.h"
 #include "framework/dynamics/equations/equations.h"
 
-/// Where joints, drivers and forces take hold of bodies of elements, and what they put on them.
+/// Points where joints, drivers and forces act on bodies of elements, and their loads there.
 namespace pintle {
 
-/// Where the things of a scene have come to stand in its system.
+/// Indices of the elements of a scene in its system.
 struct BuiltOrder {
-  std::vector<int> joints;    ///< of each joint of the scene: into System::joints, of one with clearance into System::contacts
+  std::vector<int> joints;    ///< of each joint of the scene: into System::joints, for one with clearance into System::contacts
   std::vector<int> drivers;   ///< into System::joints
   std::vector<int> loads;     ///< into System::forces
   std::vector<int> contacts;  ///< into System::contacts, the first pair of each
 };
 
-/// Where something acts on a body of elements: its wrench is the k-th of joints, contacts (of profiles the sum from there on) or forces.
+/// Point where something acts on a body of elements: its wrench is the k-th of joints, contacts (for profiles the sum from there on) or
+/// forces.
 struct Attachment {
   enum Of { joint, contact, force } of;
   std::size_t k;
@@ -26,10 +27,10 @@ struct Attachment {
   Eigen::Index row;  ///< of the load history
 };
 
-/// All grips on the bodies that `elements` has, one a body of the scene, nullptr for others.
+/// All attachments to the bodies in `elements`, which has one entry per body of the scene, nullptr for others.
 std::vector<Attachment> attachments_of(const Scene&, const BuiltOrder&, const std::vector<const ElasticBody*>& elements);
 
-/// How much of each of `loads_on` acts on body b in an evaluated state: a column of its LoadHistory, whose size `out` has.
+/// Factor of each of `loads_on` for body b in an evaluated state: a column of its LoadHistory, whose size `out` has.
 void loads_now(const System&, const std::vector<Attachment>&, const State&, const Equations&, std::size_t b,
                Eigen::Ref<Eigen::VectorXd> out);
 

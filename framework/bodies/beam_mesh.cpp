@@ -17,21 +17,21 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double rounding = 1e-9;  ///< of a piece's length: nearer is on it
-constexpr double touching = 1e-6;  ///< of the shorter of two pieces: nearer looks joined
+constexpr double rounding = 1e-9;  ///< relative to a piece's length: a nearer point is on it
+constexpr double touching = 1e-6;  ///< relative to the shorter of two pieces: nearer pieces look joined
 
-/// How far along a piece from a to b the place p lies on it, 0 to 1; negative if it does not.
+/// Position of point p along a piece from a to b, 0 to 1; negative if it is not on the piece.
 double along(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
   const Vector2d d = b - a;
   const double t = d.dot(p - a) / d.squaredNorm();
   return t >= 0 && t <= 1 && (a + t * d - p).norm() <= rounding * d.norm() ? t : -1;
 }
 
-/// Points of the body that lie at one place are one node; a point that the path names is known by that name.
+/// Points of the body at the same place are one node; if the path names one of them, the node has that name.
 struct Places {
   const std::vector<ScenePoint>& points;
   double near;
-  std::vector<std::size_t> passed{};  ///< points, one for each node
+  std::vector<std::size_t> passed{};  ///< points, one per node
   std::vector<char> named_here{};     ///< whether the path names it
 
   int node_of(std::size_t point, bool named) {
@@ -51,7 +51,7 @@ struct Places {
   }
 };
 
-/// Shortest way between two straight pieces, and the middle of it.
+/// Shortest distance between two straight pieces, and the middle of it.
 double gap(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d, Vector2d& at) {
   const auto cross = [](const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); };
   const Vector2d u = b - a, v = d - c;
@@ -72,7 +72,7 @@ double gap(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector
   return least;
 }
 
-/// Nodes that the axis comes back to are made one: the first of them.
+/// Merges nodes where the axis returns to a point: the first one is kept.
 void join(Mesh& mesh, const BeamAxis& axis, const std::vector<int>& cells) {
   std::vector<int> to(static_cast<std::size_t>(mesh.x.cols()));
   std::iota(to.begin(), to.end(), 0);
@@ -120,7 +120,7 @@ BeamAxis beam_axis(const Scene& scene, const SceneBody& body, const SceneBeam& b
   add(vector(body.points[through[0]].at), through[0], true);
   for (std::size_t i = 0; i + 1 < through.size(); ++i) {
     const Vector2d a = vector(body.points[through[i]].at), b = vector(body.points[through[i + 1]].at);
-    if ((b - a).norm() == 0) {  // line_mesh says what is wrong with it
+    if ((b - a).norm() == 0) {  // line_mesh reports the error
       add(b, through[i + 1], true);
       continue;
     }

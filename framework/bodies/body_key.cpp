@@ -125,18 +125,18 @@ class Writer : public ValueWriter<Writer> {
   std::string out_;
 };
 
-/// Words of a Gmsh script that look beyond it, or parts of them: Include, ListFromFile, GetEnv, SystemCall, Rand, OnelabRun, …
+/// Words, or parts of words, with which a Gmsh script refers to outside data: Include, ListFromFile, GetEnv, SystemCall, Rand, OnelabRun, …
 constexpr std::string_view outward[]{"Include", "Merge", "Open",    "File",       "Env",    "System",  "Rand",   "nelab",     "ONELAB",
                                      "Plugin",  "Today", "Cpu",     "Memory",     "Exists", "Define",  "Get",    "SetNumber", "SetString",
                                      "Current", "Path",  "DirName", "Executable", "MPI",    "General", "Solver", "External"};
 
-/// Whether a drawing may depend on more than its own text. Told generously: if so, it is only made again.
+/// Whether a drawing may depend on more than its own text. Errs on the safe side: then it is only meshed again.
 bool looks_beyond(const std::string& kind, const std::string& text) {
   const auto has = [&](std::string_view word) { return text.find(word) != std::string::npos; };
   if (kind == ".geo") return std::any_of(std::begin(outward), std::end(outward), has);
   if (kind == ".step" || kind == ".stp") return has("DOCUMENT") || has("EXTERNAL");
   if (kind == ".inp") {
-    constexpr std::string_view word = "*INCLUDE";  // in letters of any size
+    constexpr std::string_view word = "*INCLUDE";  // in upper or lower case
     const auto alike = [](unsigned char a, unsigned char b) { return std::toupper(a) == b; };
     return std::search(text.begin(), text.end(), word.begin(), word.end(), alike) != text.end();
   }
@@ -150,7 +150,7 @@ std::optional<std::string> contents(const Scene& scene, const SceneFile& file) {
     const fs::path path = contained_file(file.path, fs::path(scene.file).parent_path());
     text = read_file(path, most_bytes);
   } catch (const FileRefused&) {
-    return {};  // meshing it says why
+    return {};  // meshing it reports the error
   }
   if (text.empty() || looks_beyond(kind_of(file.path), text)) return {};
   return text;

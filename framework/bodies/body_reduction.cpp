@@ -22,10 +22,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Compliance beside the body's greatest of its kind below which a port counts as held by the tie.
+/// Compliance relative to the body's largest of its kind below which a port counts as fixed by the reference conditions.
 constexpr double held = 1e-9;
 
-// Inertia about the mass centre x_c instead of the origin: x − x_c, R about it.
+// Inertia about the mass centre x_c instead of the origin: uses x − x_c, and R about it.
 FlexInertia about(const Vector2d& centre, FlexInertia f) {
   f.j -= centre.transpose() * f.S;
   f.h += centre.y() * f.S.row(0) - centre.x() * f.S.row(1);
@@ -44,7 +44,7 @@ FlexInertia invariants(const ElasticBody& e, const Reduction& r) {
   return about(inertia.c / inertia.m, std::move(flex));
 }
 
-/// What several judgements of one body share.
+/// Data shared by several checks of one body.
 struct Judged {
   const ElasticBody& e;
   const Reduction& r;
@@ -54,7 +54,7 @@ struct Judged {
   std::vector<int> interface;  ///< ports in use
 };
 
-/// Reduced over full compliance uᵀf of unit loads at the ports in use, the least.
+/// Smallest ratio of reduced to full compliance uᵀf for unit loads at the ports in use.
 CoveredCompliance covered(const Judged& b) {
   const ElasticBody& e = b.e;
   const MatrixXd loads = b.loads.rightCols(3 * static_cast<Index>(e.model.ports.size()));
@@ -74,7 +74,7 @@ CoveredCompliance covered(const Judged& b) {
   return out;
 }
 
-/// Shapes brought to mean axes are φ − R(RᵀMR)⁻¹RᵀMφ; with R about the mass centre RᵀMφ is S and h.
+/// Shapes transformed to mean axes are φ − R(RᵀMR)⁻¹RᵀMφ; with R about the mass centre RᵀMφ is S and h.
 std::vector<FreeCompliance> when_free(const Judged& b) {
   const std::vector<Port>& ports = b.e.model.ports;
   std::vector<FreeCompliance> out(ports.size());
@@ -94,7 +94,7 @@ std::vector<FreeCompliance> when_free(const Judged& b) {
   return out;
 }
 
-/// A tie that holds the body by its interface alone: the chord of the two ports farthest apart, or one that turns.
+/// Reference conditions that fix the body only by its interface: the chord of the two ports farthest apart, or a port with a rotation.
 std::optional<ReferenceConditions> hold_by(const ElasticBody& e, const std::vector<int>& interface) {
   ReferenceConditions chord{ReferenceConditions::chord};
   double farthest = 1e-6 * (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm();
@@ -108,7 +108,7 @@ std::optional<ReferenceConditions> hold_by(const ElasticBody& e, const std::vect
   return {};
 }
 
-/// Static shapes meet loads at the interface exactly; what inertia does to the body beyond and between is left to the modes.
+/// Static shapes represent loads at the interface exactly; the deformation due to inertia beyond and between them is left to the modes.
 CoveredInertia inertia_covered(const Judged& b) {
   CoveredInertia out;
   const std::optional<ReferenceConditions> hold = hold_by(b.e, b.interface);
@@ -116,7 +116,7 @@ CoveredInertia inertia_covered(const Judged& b) {
   constexpr Index translations = 2;
   const MatrixXd loads = b.loads.leftCols<translations>();
   const VectorXd full = loads.cwiseProduct(b.response.under(*hold, loads)).colwise().sum();
-  // φ brought to the hold is φ − R(BR)⁻¹Bφ: work on it is that on φ less (Rᵀf)ᵀ(BR)⁻¹Bφ.
+  // φ transformed to these conditions is φ − R(BR)⁻¹Bφ: its work is that of φ minus (Rᵀf)ᵀ(BR)⁻¹Bφ.
   const MatrixXd B = reference_condition_rows(b.c, *hold), R = rigid_motions(b.e.model);
   MatrixXd B_phi = MatrixXd::Zero(3, b.r.modes.omega.size());
   for (Index p = 0; p < static_cast<Index>(b.e.model.ports.size()); ++p)

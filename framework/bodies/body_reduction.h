@@ -10,41 +10,41 @@
 
 namespace pintle {
 
-/// Least share of the static compliance of a body that its shapes cover at a port in use.
+/// Smallest share of a body's static compliance that its shapes represent at a port in use.
 struct CoveredCompliance {
   double share = 1;
-  std::string at;  ///< "B, y"; empty: no port yields
+  std::string at;  ///< "B, y"; empty: no port is compliant
 };
 
-/// How the body yields to a brief force at a port, as a contact exerts it: freely accelerating, whatever ties the frame. [m/N]
+/// Compliance to a brief force at a port, such as a contact force: the body accelerates freely, whatever its reference conditions. [m/N]
 struct FreeCompliance {
   Eigen::Vector2d full = Eigen::Vector2d::Zero(), kept = Eigen::Vector2d::Zero();  ///< along x and y, body axes
 };
 
-/// The least share that shapes cover of the compliance under the body's own inertia, held at its interface.
+/// Smallest share of the compliance to the body's own inertia, held at its interface, that the shapes represent.
 struct CoveredInertia {
   double share = 1;
-  std::string of;  ///< "acceleration along y"; empty: not judged, or nothing yields
+  std::string of;  ///< "acceleration along y"; empty: not evaluated, or no compliance
 };
 
-/// What a body of elements is reduced to: all of a flexible body that is expensive to find. Neither its name nor its damping is in it.
+/// Result of reducing a body of elements: everything about a flexible body that is expensive to compute. Excludes its name and damping.
 struct Reduction {
   ReferenceConditions conditions;
-  ModalModel modes;                                    ///< no shapes: rigid, and what follows is empty
+  ModalModel modes;                                    ///< without shapes: rigid, and the following members are empty
   FlexInertia inertia;                                 ///< about the mass centre, without damping
-  std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< foreshortening at each port, if it stiffens
+  std::vector<std::array<Eigen::MatrixXd, 2>> second;  ///< foreshortening at each port, for a body with geometric stiffness
   CoveredCompliance compliance;
-  std::vector<FreeCompliance> when_free;  ///< of each port; zero of those not in use
-  CoveredInertia inertia_covered;         ///< of Craig–Bampton shapes
-  /// Foreshortening of each of `loads_on` in use, on the `stiffened_shapes` lowest; those not in use are zero.
+  std::vector<FreeCompliance> when_free;  ///< of each port; zero for those not in use
+  CoveredInertia inertia_covered;         ///< for Craig–Bampton shapes
+  /// Foreshortening for each of `loads_on` in use, on the `stiffened_shapes` lowest; zero for those not in use.
   std::vector<Eigen::MatrixXd> by_load;
 };
 
-/// Of the lowest shapes, those that loads may mix in an estimate of stiffening.
+/// Number of lowest shapes used in an estimate of geometric stiffness.
 inline constexpr Eigen::Index stiffened_shapes = 12;
 
-/// Of a body that says `modes`; of another, nothing.
-/// @param chosen  how many modes where the scene says `keep: auto`; all without
+/// For a body with `modes`; for others nothing.
+/// @param chosen  number of modes for `keep: auto`; all if unset
 /// @throws SceneError  as reduce
 Reduction reduction_of(const Scene&, const ElasticBody&, std::optional<int> chosen = {});
 

@@ -29,7 +29,7 @@ std::size_t cells(const std::vector<Cells>& all) {
   return bytes;
 }
 
-/// Memory of what grows with the mesh.
+/// Memory of the parts that grow with the mesh.
 std::size_t bytes_of(const ElasticBody& e) {
   std::size_t bytes = sizeof e + dense(e.mesh.x) + list(e.mesh.node_numbers) + cells(e.mesh.cells) + list(e.quality.cells) +
                       dense(e.model.x) + list(e.model.begin) + list(e.model.independent) + sparse(e.model.L) + sparse(e.K) + sparse(e.M) +

@@ -9,16 +9,16 @@
 
 namespace pintle {
 
-/// Finished bodies of elements, and their reductions, for many scenes in any number of threads: what follows from the same
-/// content (body_key.h) is made once, and what comes out of the store is to the bit what would be made without it.
+/// Finished bodies of elements, and their reductions, for many scenes in any number of threads: results for the same content (body_key.h)
+/// are computed once, and are identical to the bit to those computed without the store.
 class BodyStore {
  public:
-  /// @param most_bytes  of what is kept, about; what was used least recently goes
+  /// @param most_bytes  approximate limit of the stored data; the least recently used data are dropped
   explicit BodyStore(std::size_t most_bytes = std::size_t{256} << 20);
 
-  /// As elastic_body. A body whose drawing depends on more than itself is made again.
+  /// As elastic_body. A body whose drawing depends on other data is made again.
   ElasticBody elastic(const Scene&, const SceneBody&);
-  /// As reduction_of. Of a body that is not from here it is made again.
+  /// As reduction_of. For a body that is not from this store it is computed again.
   Reduction reduction(const Scene&, const ElasticBody&, std::optional<int> chosen);
 
   long bodies_made() const { return bodies_made_; }

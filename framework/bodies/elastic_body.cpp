@@ -39,14 +39,14 @@ void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
                        ": the stress there is unreliable");
 }
 
-/// Cells that overlap or do not hold together are another body than the one meant.
+/// Warns of cells that overlap or are not connected: the body is then not the intended one.
 void validate_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
   const Soundness s = soundness(mesh);
   if (!s.faults.empty()) throw std::invalid_argument("its mesh is not a single sheet: " + s.faults.front());
   warnings.insert(warnings.end(), s.warnings_of.begin(), s.warnings_of.end());
 }
 
-/// Elements of few freedoms whose strain cannot keep its volume at every point and still bend.
+/// Warns of elements with too few freedoms to bend at constant volume.
 void validate_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::string>& warnings) {
   constexpr double nearly = 0.48;
   const auto* solid = std::get_if<Isotropic>(&plate.material.material.elastic);
@@ -59,7 +59,7 @@ void validate_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std
   warnings.push_back(s.str());
 }
 
-/// Rounding of the stretch, which is so much stiffer, in the bending of a slender beam (docs/theory/elements.md).
+/// Warns of rounding in the bending of a slender beam, due to its much larger axial stiffness (docs/theory/elements.md).
 void validate_slenderness(const FeModel& model, std::vector<std::string>& warnings) {
   constexpr double too_much = 0.01;
   double length = 0, stretch = 0, bending = std::numeric_limits<double>::infinity();
@@ -163,7 +163,7 @@ std::vector<AnyBlock> blocks_of(const SceneBody& body, const Mesh& mesh, std::ve
   return at_density(1, mass, total_mass(at_density(1, {}, 1), mesh.x));
 }
 
-/// Whether sides close a loop that has the body inside: the outline, not a hole.
+/// Whether sides form a closed loop around the body: the outline, not a hole.
 bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
   std::vector<int> begins, ends;
   double twice_area = 0;
@@ -180,7 +180,7 @@ bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
   return begins == ends && twice_area > 0;
 }
 
-/// A point coupled to a part of a rim stands in the middle of that part, not of the hole.
+/// Checks that a point coupled to a part of a rim is in the middle of that part, not of the hole.
 void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
                   std::vector<std::string>& warnings) {
   constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;

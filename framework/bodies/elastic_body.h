@@ -11,18 +11,18 @@
 
 namespace pintle {
 
-/// A body of elements made ready: meshed, numbered, assembled. Matrices are N × N, nodal.
+/// A prepared body of elements: meshed, numbered, assembled. Matrices are N × N, nodal.
 struct ElasticBody {
   const SceneBody* scene = nullptr;
   Mesh mesh;
-  MeshQuality quality;  ///< of plane meshes
+  MeshQuality quality;  ///< for plane meshes
   FeModel model;
   Sparse K, M;
-  std::vector<Fibre> fibres;  ///< of lines, one an element
-  double thickness = 0;       ///< of plates [m]
+  std::vector<Fibre> fibres;  ///< for line elements, one per element
+  double thickness = 0;       ///< for plates [m]
   std::vector<std::string> warnings;
   double mesh_seconds = 0, assembly_seconds = 0;
-  long number = 0;  ///< in the BodyStore that has made it; 0: made for itself
+  long number = 0;  ///< in the BodyStore that made it; 0: made separately
   bool plate() const { return mesh.plane(); }
 };
 
@@ -30,30 +30,30 @@ struct ElasticBody {
 /// @throws SceneError  there is none, or several and no name; the remedy lists them
 const SceneBody& elastic_of(const Scene&, const std::string& name);
 
-/// Its mesh alone: generated, or read from its file beside the scene. Adds to the warnings.
-/// @throws SceneError  whatever is wrong with shape, file or mesh: no cell, a body in pieces, …
+/// Its mesh alone: generated, or read from its file next to the scene. Adds to the warnings.
+/// @throws SceneError  any error in shape, file or mesh: no cell, a body in pieces, …
 Mesh mesh_of(const Scene&, const SceneBody&, std::vector<std::string>& warnings);
 
-/// @throws SceneError  as mesh_of, and whatever is wrong with points, holes, material or lumps
+/// @throws SceneError  as mesh_of, and any error in points, holes, material or lumps
 ElasticBody elastic_body(const Scene&, const SceneBody&);
 
-/// What one entry of the body's supports holds.
+/// The freedoms fixed by one entry of the body's supports.
 struct NamedSupport {
   std::string at;
   Supports held;
 };
 /// @throws SceneError  a place that is neither a point nor a group
 std::vector<NamedSupport> supports_of(const Scene&, const ElasticBody&);
-/// All of them as one.
+/// All of them combined.
 Supports together(const std::vector<NamedSupport>&);
 
 /// The scene's static case as forces.
 struct BodyLoad {
   Eigen::VectorXd independent;  ///< on independent freedoms, n
-  Eigen::MatrixXd on_beams;     ///< what of it acts between the nodes of each line element: its share of the nodal
-                                ///< forces [f_x f_y m] at both ends, 6 × elements, body axes; 6 × 0 of plates
+  Eigen::MatrixXd on_beams;     ///< the part that acts between the nodes of each line element: its share of the nodal
+                                ///< forces [f_x f_y m] at both ends, 6 × elements, body axes; 6 × 0 for plates
 };
-/// @throws SceneError  a place that is not there, or a load that such a body cannot take
+/// @throws SceneError  a place that does not exist, or a load that is not possible on such a body
 BodyLoad loads_of(const Scene&, const ElasticBody&);
 
 }  // namespace pintle

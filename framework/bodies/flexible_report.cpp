@@ -17,10 +17,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index responding = 40;            ///< of the lowest shapes, in estimates
-constexpr double rounding_of_force = 1e-9;  ///< of a modal force beside its terms
+constexpr Index responding = 40;            ///< number of lowest shapes used in estimates
+constexpr double rounding_of_force = 1e-9;  ///< of a modal force, relative to its terms
 
-/// Greatest turn in a nodal field of displacements, of sections and ports.
+/// Largest rotation of sections and ports in a nodal displacement field.
 double greatest_turn(const ElasticBody& e, const VectorXd& nodal, const VectorXd& ports) {
   double turn = 0;
   for (std::size_t i = 0; i + 1 < e.model.begin.size(); ++i)
@@ -37,7 +37,7 @@ double greatest_displacement(const ElasticBody& e, const VectorXd& nodal) {
 
 double size_of(const ElasticBody& e) { return (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(); }
 
-/// Relative change of the first frequency when −F is added to its stiffness; −1: nothing is left of it.
+/// Relative change of the first frequency when −F is added to the stiffness; −1: it falls to zero.
 double change(const VectorXd& omega, const MatrixXd& F) {
   MatrixXd K = -F;
   K.diagonal() += omega.cwiseAbs2();
@@ -45,7 +45,7 @@ double change(const VectorXd& omega, const MatrixXd& F) {
   return std::sqrt(std::max(0.0, least)) / omega[0] - 1;
 }
 
-/// The same over a history, where it is greatest in magnitude: judged by the first shape alone, then exactly.
+/// The same for a history, at its largest magnitude: the time is found from the first shape alone, then the change is computed exactly.
 double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, const MatrixXd& factor) {
   VectorXd first(factor.rows());
   for (Index k = 0; k < factor.rows(); ++k) first[k] = F[static_cast<std::size_t>(k)](0, 0);
@@ -62,7 +62,7 @@ double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, co
   return greatest;
 }
 
-/// The port by which a joint pins the body to the ground, −1 if none does.
+/// The port where a joint pins the body to the ground, −1 if none does.
 int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
     if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
@@ -128,12 +128,12 @@ MotionEstimate motion_estimate(const MechanismBody& b, const LoadHistory& histor
   const MatrixXd work = work_of_loads(b.elastic, modes);
   MatrixXd Q = work * history.factor;
   const MatrixXd terms = work.cwiseAbs() * history.factor.cwiseAbs();
-  for (Index i = 0; i < Q.rows(); ++i)  // loads in equilibrium that leave a mode nothing but rounding
+  for (Index i = 0; i < Q.rows(); ++i)  // loads in equilibrium whose effect on a mode is only rounding
     if (Q.row(i).lpNorm<Eigen::Infinity>() <= rounding_of_force * terms.row(i).maxCoeff()) Q.row(i).setZero();
   const MatrixXd eta = oscillator_response(modes.omega, b.body.flex->zeta, history.t, Q);
   out.spin = std::sqrt(history.factor.row(3).maxCoeff());
   out.excited_up_to = excited_up_to(history.t, Q, modes.omega);
-  // The field at each mode's greatest amplitude and at the greatest displacement in the mean square.
+  // The field at the largest amplitude of each mode and at the largest mean square displacement.
   std::vector<Index> times(1);
   eta.colwise().squaredNorm().maxCoeff(&times[0]);
   for (Index i = 0; i < std::min<Index>(3, eta.rows()); ++i) eta.row(i).cwiseAbs().maxCoeff(&times.emplace_back());
@@ -220,7 +220,7 @@ std::string stiffening_warning(const std::string& body, Stiffening now, const Fr
 
 std::string deflection_warning(const std::string& body, double deflection, double slope, const std::string& when) {
   if (!(deflection > large_deflection || slope > large_slope)) return "";
-  constexpr double straight = 1e-3;  // a slope so small beside the deflection: it is drawn out or pressed, and stays straight
+  constexpr double straight = 1e-3;  // a slope this small relative to the deflection: pure extension or compression
   if (slope > 0 && slope < straight * deflection)
     return "\"" + body + "\" is stretched or compressed by " + percent(deflection) +
            " of its size, but deformation is assumed small (up to " + percent(large_deflection) +

@@ -31,7 +31,7 @@ std::string tied_to(const MechanismBody& b) {
 
 bool keeps_all(const SceneKeep& k) { return !k.automatic && !k.count && !k.below && !k.effective_mass; }
 
-/// The first of them by name, and how many more.
+/// The name of the first of them, and the number of the others.
 std::string first_of(const std::vector<std::string>& names) {
   return names.front() + (names.size() > 1 ? " (and " + std::to_string(names.size() - 1) + " more)" : "");
 }

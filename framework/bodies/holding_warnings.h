@@ -8,9 +8,8 @@
 
 namespace pintle {
 
-/// What makes flexible bodies doubtful in the way joints hold them, in words: normal modes of a body that a
-/// weld or guide clamps where its frame does not; `stiffening: rotation` of a body that is held elsewhere
-/// than at its frame's tie.
+/// Warnings about how joints hold flexible bodies, in words: normal modes of a body that a weld or guide clamps where its frame is not
+/// clamped; `stiffening: rotation` of a body that is held at other points than its reference conditions.
 std::vector<std::string> holding_warnings(const Scene&, const std::vector<std::optional<MechanismBody>>&);
 
 }  // namespace pintle

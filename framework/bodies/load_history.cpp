@@ -43,7 +43,7 @@ Eigen::MatrixXd loads_on(const ElasticBody& e) {
 VectorXd power_spectrum(const VectorXd& samples) {
   const Index n = samples.size();
   VectorXd windowed = samples.array() - samples.mean();
-  for (Index i = 0; i < n; ++i)  // Hann: what leaks falls off fast
+  for (Index i = 0; i < n; ++i)  // Hann window: leakage falls off fast
     windowed[i] *= 1 - std::cos(two_pi * static_cast<double>(i) / static_cast<double>(n));
   Eigen::VectorXcd transform(n);
   Eigen::FFT<double> fft;
@@ -63,7 +63,7 @@ std::vector<Imposed> imposed_frequencies(const Scene& scene) {
       fastest = std::max(fastest, std::abs(law.rate));
     }
     Imposed out{d.name, 0, false, false};
-    // What is left of an even law is rounding of its rate.
+    // For a uniform law only the rounding of its rate is left.
     out.even = acceleration.lpNorm<Eigen::Infinity>() * until <= 1e-6 * fastest;
     if (!out.even) {
       Index most = 0;

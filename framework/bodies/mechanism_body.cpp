@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-// The shapes must leave the frame some inertia: M − BBᵀ > 0, against the rigid body's.
+// The shapes must leave inertia to the frame: M − BBᵀ > 0, compared with the rigid body's.
 void validate_frame(const MechanismBody& b) {
   Eigen::Matrix3Xd B(3, b.body.modes());
   B << b.body.flex->S, b.body.flex->h;
@@ -79,7 +79,7 @@ MechanismBody mechanism_body(const Scene& scene, ElasticBody elastic, std::optio
 Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const PointRef& ref, bool turns) {
   const ElasticBody& e = b.elastic;
   const int found = port_of(e, ref.point);
-  if (found < 0 && !ref.point.empty()) point_of(scene, *e.scene, ref.point, ref.place);  // says what there is
+  if (found < 0 && !ref.point.empty()) point_of(scene, *e.scene, ref.point, ref.place);  // reports the existing points
   if (found < 0 && b.body.flex)
     throw SceneError(
         scene.file, ref.place,

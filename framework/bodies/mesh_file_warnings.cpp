@@ -11,19 +11,19 @@ namespace pintle {
 
 namespace {
 
-constexpr double same = 1e-3;      ///< relative: numbers of a file are written with three digits or more
+constexpr double same = 1e-3;      ///< relative: numbers in files have at least three digits
 constexpr double very_large = 20;  ///< of a body [m]
 
 bool near(double a, double b) { return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b)); }
 
-/// Whether two moduli are one in different units: a power of ten apart, or pounds per square inch.
+/// Whether two moduli are the same in different units: related by a power of ten, or by pounds per square inch.
 bool same_modulus(double file, double pascal) {
   if (!(file > 0)) return false;
   const double ten = std::pow(10, std::round(std::log10(pascal / file)));
   return near(file * ten, pascal) || std::abs(file * 6894.757 - pascal) <= 1e-2 * pascal;
 }
 
-/// The greatest distance between two points that are said of one thing other than `but`, or from its origin [m].
+/// The largest distance between two points of one element of the scene other than `but`, or from its origin [m].
 double rest_of_scene(const Scene& scene, const SceneBody& but) {
   double size = 0;
   const auto add = [&](const std::vector<ScenePoint>& points) {
@@ -77,7 +77,7 @@ std::string size_warning(const Scene& scene, const ElasticBody& e) {
   const auto* file = std::get_if<SceneFile>(&plate_of(*e.scene).shape);
   if (!file || file->unit_given || kind_of(file->path) == ".step" || kind_of(file->path) == ".stp") return "";
   const double size = (e.mesh.x.rowwise().maxCoeff() - e.mesh.x.rowwise().minCoeff()).norm(), rest = rest_of_scene(scene, *e.scene);
-  const bool off = rest > 0 && size > 300 * rest && size < 3000 * rest;  // a thousand, with room for a link longer than the others
+  const bool off = rest > 0 && size > 300 * rest && size < 3000 * rest;  // about a thousand, allowing for a longer link
   if (!(size > very_large) && !off) return "";
   return "it is " + number_text(size) + " m across" +
          (off ? ", about a thousand times the rest of the scene (" + number_text(rest) + " m)" : "") + ": " + file->path +

@@ -21,18 +21,17 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Method = SceneModes::Method;
 
-constexpr Index evenly = 256;        ///< times at which shares are judged, beside the extremes
-constexpr Index watched_nodes = 64;  ///< nodes whose displacement is judged, beside the ports
+constexpr Index evenly = 256;        ///< times at which shares are evaluated, besides the extremes
+constexpr Index watched_nodes = 64;  ///< nodes whose displacement is evaluated, besides the ports
 constexpr Index spectrum_samples = 8192;
 
-/// The lowest of the modes of which `keep` counts, and the static shapes that stay whatever is kept;
-/// all brought to one tie.
+/// The lowest of the modes counted by `keep`, and the static shapes that are always kept; all for the same reference conditions.
 struct Candidates {
   ReferenceConditions conditions;
   ModalModel modes, fixed;
 };
 
-/// As Keep for at most `count` modes: bodies of few freedoms may have fewer.
+/// Keep for at most `count` modes: bodies with few freedoms may have fewer.
 template <class Modes>
 ModalModel lowest(const Component& c, Index count, Modes modes) {
   Keep keep{static_cast<int>(count), {}, {}, false};
@@ -47,7 +46,7 @@ Candidates candidates_of(const Scene& scene, const ElasticBody& e, const Compone
   const std::vector<int> ports = interface_of(scene, e);
   Candidates out{reference_conditions_of(scene, e), {}, {}};
   const Keep none{0, {}, {}, false};
-  if (method == Method::free) out.conditions = {ReferenceConditions::mean_axes};  // where free modes are at home
+  if (method == Method::free) out.conditions = {ReferenceConditions::mean_axes};  // natural for free modes
   const ReferenceConditions& conditions = out.conditions;
   if (method == Method::craig_bampton) {
     out.modes = lowest(c, most, [&](const Keep& k) { return fixed_interface_modes(c, ports, conditions, k); });
@@ -99,7 +98,7 @@ class Watched {
   std::vector<std::array<int, 2>> ports_;
 };
 
-/// A body under its loads: static shapes, then candidates, in small matrices.
+/// A body under its loads: static shapes, then candidates, as small matrices.
 struct Reduced {
   VectorXd omega, zeta;     ///< of the candidates
   Index fixed;              ///< static shapes, in front
@@ -110,7 +109,7 @@ struct Reduced {
   MatrixXd static_watched;  ///< its displacement, rows × loads
 };
 
-/// Ratios as the scene gives them; where they cannot be told before the shapes are chosen, none.
+/// Ratios given in the scene; none where they cannot be computed before the shapes are chosen.
 VectorXd damping(const Scene& scene, const ElasticBody& e, const VectorXd& omega) {
   try {
     return damping_of(scene, *e.scene, omega, omega);
@@ -139,7 +138,7 @@ Reduced reduced(const Scene& scene, const ElasticBody& e) {
   return r;
 }
 
-/// Times at which a row is greatest in magnitude, and some evenly between.
+/// Times at which a row is largest in magnitude, and some at equal intervals between.
 std::vector<Index> telling_times(const MatrixXd& eta, const MatrixXd& factor) {
   std::set<Index> times;
   for (const MatrixXd* rows : {&eta, &factor})
@@ -160,8 +159,8 @@ double longest(const MatrixXd& displacement) {
   return longest;
 }
 
-/// What the shapes taken so far leave of the body's motion at the telling times: the static response that they cannot
-/// make, and of each candidate not taken by how much it differs from following statically.
+/// The part of the body's motion, at the selected times, that the shapes taken so far do not represent: the missing static response, and
+/// for each candidate not taken the difference from its static response.
 class Left {
  public:
   Left(const Reduced& r, const MatrixXd& eta, const MatrixXd& factor)
@@ -173,7 +172,7 @@ class Left {
         energy_(factor.cwiseProduct(r.static_work * factor).colwise().sum()),
         field_(r.static_watched * factor) {}
 
-  /// Shape j, K-orthonormal to those taken before, takes its part; one that they make up takes nothing.
+  /// Takes shape j, made K-orthonormal to those taken before; a shape that they already represent adds nothing.
   void take(Index j) {
     VectorXd y = VectorXd::Unit(r_.gram.cols(), j);
     for (int pass = 0; pass < 2; ++pass)
@@ -212,7 +211,7 @@ class Left {
 
 std::string fine_percent(double part) { return number_text(std::round(1e5 * part) / 1e3) + " %"; }
 
-/// The fewest that leave negligible parts beside what no candidate covers.
+/// The smallest number of modes that leaves negligible parts, relative to what no candidate represents.
 std::size_t enough(const std::vector<ConsideredMode>& modes, const ModalChoice& choice) {
   for (std::size_t k = 0; k < modes.size(); ++k)
     if (modes[k].left_energy <= choice.beyond_energy + negligible_part &&
@@ -263,7 +262,7 @@ MatrixXd oscillator_response(const VectorXd& omega, const VectorXd& zeta, const 
         const double slow = std::exp((root - a) * h), fast = std::exp((-root - a) * h);
         c = (slow + fast) / 2, s = (slow - fast) / (2 * root);
       }
-      // What follows the load without oscillation is p(τ) = p₀ + ṗτ.
+      // The non-oscillating part follows the load: p(τ) = p₀ + ṗτ.
       const double rate = (Q(i, k) - Q(i, k - 1)) / (h * w * w), p = Q(i, k - 1) / (w * w) - 2 * a * rate / (w * w);
       const double dx = x - p, dv = v - rate;
       x = p + rate * h + c * dx + s * (dv + a * dx);

@@ -75,7 +75,7 @@ std::vector<StartBody> Redirection::starts() const {
   return out;
 }
 
-/// What a flexible body alone means: its point at the origin of its axes.
+/// The point meant by a flexible body without a point: that at the origin of its axes.
 const ScenePoint& Redirection::at_origin(const SceneBody& body, const PointRef& ref) const {
   constexpr double near = 1e-12;  // [m]
   std::vector<std::string> points;

@@ -8,14 +8,14 @@
 
 namespace pintle {
 
-/// What becomes of a beam that is cut.
+/// The pieces that a beam is divided into.
 struct Pieces {
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> welds;
-  std::map<std::string, std::string> owner;  ///< of a point: the name of its piece
+  std::map<std::string, std::string> owner;  ///< for each point, the name of its piece
 };
 
-/// Turns what names a beam or its points to the pieces. @throws SceneError  as with_pieces
+/// Redirects references to a beam or its points to the pieces. @throws SceneError  as with_pieces
 class Redirection {
  public:
   Redirection(const Scene& before, const std::map<std::string, Pieces>& cuts) : before_(before), cuts_(cuts) {}
@@ -25,7 +25,7 @@ class Redirection {
   void redirect(SceneJoint&) const;
   void redirect(SceneContact&) const;
   void redirect(SceneLoad&) const;
-  /// All pieces begin as parts of one rigid body and share its axes.
+  /// All pieces start as parts of one rigid body and share its axes.
   std::vector<StartBody> starts() const;
 
  private:

@@ -46,7 +46,7 @@ Vector2d place(const Axis& axis, double s) {
   return axis.corners[i] + t * (axis.corners[i + 1] - axis.corners[i]);
 }
 
-/// Arc length where p lies on the axis, the first if it passes there twice.
+/// Arc length of p on the axis, the first if it passes there twice.
 std::optional<double> arc_of(const Axis& axis, const Vector2d& p, double tolerance) {
   for (std::size_t i = 0; i + 1 < axis.corners.size(); ++i) {
     const Vector2d &a = axis.corners[i], &b = axis.corners[i + 1];
@@ -71,7 +71,7 @@ int passages(const Axis& axis, const SceneBeam& beam, const ScenePoint& p, doubl
   return static_cast<int>(at.size());
 }
 
-/// One beam while it is cut.
+/// A beam while it is being divided.
 struct Whole {
   const Scene& scene;
   const SceneBody& body;
@@ -129,15 +129,14 @@ Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam)
   return whole;
 }
 
-/// A name for the cut that no point of the body has; the reader lets no name hold a quote.
+/// A name for the cut that no point of the body has; the reader allows no quotes in names.
 std::string cut_name(const SceneBody& body, std::size_t cut) {
   std::string name = "cut " + std::to_string(cut);
   while (std::ranges::find(body.points, name, &ScenePoint::name) != body.points.end()) name += "'";
   return name;
 }
 
-/// Volume between two places of the beam. Areas are quadratic in the arc length at most, for which
-/// Simpson's rule is exact.
+/// Volume between two positions on the beam. Areas are at most quadratic in the arc length, for which Simpson's rule is exact.
 double volume(const SceneBeam& beam, double begin, double end, double length) {
   const auto area = [&](double s) {
     return section(beam.taper_to ? between(beam.section, *beam.taper_to, s / length) : beam.section, ShearFactor::five_sixths, 0).A;
@@ -157,8 +156,7 @@ void share_sections(const Whole& whole, std::size_t k, SceneBeam& piece) {
   piece.taper_to = between(beam.section, *beam.taper_to, end / length);
 }
 
-/// Points of piece k, and the names of those through which its beam runs. A point at its beginning
-/// belongs to the piece before.
+/// Points of piece k, and the names of those through which its beam runs. A point at its beginning belongs to the previous piece.
 void share_points(const Whole& whole, std::size_t k, SceneBody& piece) {
   const bool first = k == 0, last = k + 2 == whole.cuts.size();
   const double begin = whole.cuts[k], end = whole.cuts[k + 1], near = whole.tolerance;
@@ -196,7 +194,7 @@ bool has_point(const SceneBody& body, const std::string& name) {
   return std::ranges::find(body.points, name, &ScenePoint::name) != body.points.end();
 }
 
-/// The frame's tie as given if the piece has its points, else to the ends of the piece.
+/// Keeps the frame's reference conditions if the piece has their points, otherwise uses the ends of the piece.
 void tie(SceneModes& modes, const SceneBody& piece) {
   using Frame = SceneModes::Frame;
   if (modes.frame == Frame::mean_axes) return;
@@ -207,7 +205,7 @@ void tie(SceneModes& modes, const SceneBody& piece) {
   modes.b = chord ? beam.through.back() : "";
 }
 
-/// Those that its points carry; their own points may lie on other pieces, all of which share the axes of the whole.
+/// Profiles carried by its points; their own points may lie on other pieces, since all share the axes of the whole.
 std::vector<SceneProfile> profiles_on(const SceneBody& whole, const SceneBody& piece) {
   std::vector<SceneProfile> out;
   for (const SceneProfile& profile : whole.profiles) {
@@ -269,7 +267,7 @@ bool is_cut(const SceneBody& body) {
   return beam && beam->pieces > 1;
 }
 
-/// Names that pieces and welds need must be free.
+/// Checks that names needed for pieces and welds are free.
 void validate_names(const Scene& scene, const std::map<std::string, Pieces>& cuts) {
   std::map<std::string, Place> taken;
   for (const SceneBody& b : scene.bodies) taken.try_emplace(b.name, b.place);

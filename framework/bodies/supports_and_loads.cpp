@@ -85,7 +85,7 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
     const Vector2d v = vector(l.vector);
     const Port* port = l.at.empty() ? nullptr : e.model.port(l.at);
     if ((l.kind == Kind::force || l.kind == Kind::torque || (l.kind == Kind::spin && !l.at.empty())) && !port)
-      point_of(scene, *e.scene, l.at, l.place);  // says which there are
+      point_of(scene, *e.scene, l.at, l.place);  // reports the existing ones
     const auto sides = [&] {
       if (!e.plate()) throw SceneError(scene.file, l.place, "a beam has no edge; use a line load, or a force at a point");
       return sides_of(e.mesh, group_of(scene, e.mesh, l.at, l.place, "name the curve in the drawing"));

@@ -12,14 +12,14 @@ namespace pintle {
 
 namespace {
 
-/// What rolls where teeth without backlash would mesh, between markers 0 and 1.
+/// The rolling pair that replaces teeth without backlash, between markers 0 and 1.
 Flank::Teeth teeth_of(const Joint& ideal) {
   if (const auto* rack = std::get_if<Rack>(&ideal)) return RollsOnLine{{0, 1, rack->radius, rack->phase}};
   const Gear& gear = std::get<Gear>(ideal);
   return RollsOnDisc{{0, 1, gear.radius_a, gear.radius_b, gear.phase}};
 }
 
-/// A flank where it touches at the pitch point: an involute is as round there as a circle of this radius, that of a rack is straight.
+/// A flank near the pitch point: an involute has the curvature of a circle of this radius there, the flank of a rack is straight.
 Profile round(double pitch_radius, double pressure_angle) {
   if (pitch_radius != 0) return circle({0, 0}, pitch_radius * std::sin(pressure_angle));
   return profile_along({{{-1, 0}}, {{1, 0}}}, false);

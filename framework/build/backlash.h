@@ -6,14 +6,14 @@
 namespace pintle {
 
 /// The two flanks of a gear or rack with backlash, not yet complete.
-/// @param ideal  the joint that it would be without   @throws SceneError  laws or a backlash that cannot be
+/// @param ideal  the joint without backlash   @throws SceneError  invalid laws or backlash
 BuiltContact build_flanks(const Scene&, const SceneJoint&, const Joint& ideal);
 
-/// From tooth to tooth along the pitch circles, of flanks that are complete; 0: the scene says no `teeth` [m].
+/// Pitch along the pitch circles, of complete flanks; 0: the scene gives no `teeth` [m].
 double pitch_of(const SceneJoint&, const Flank&);
 
-/// Gives flanks what the start has made of the ideal joint.
-/// @param first  the first of the two in the system
+/// Sets in the flanks what the start has determined for the ideal joint.
+/// @param first  index of the first of the two in the system
 /// @throws SceneError  backlash as wide as a tooth and its gap
 void complete_flanks(const Scene&, const SceneJoint&, const Joint& ideal, std::size_t first, System&);
 

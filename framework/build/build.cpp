@@ -35,7 +35,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Makes the model of a scene, part by part.
+/// Builds the model of a scene, part by part.
 class Builder {
  public:
   Builder(const Scene& scene, bool preliminary, BodyStore* store)
@@ -75,7 +75,7 @@ class Builder {
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
         model_.warnings.push_back(warning);
     model_.clearances = complete_clearances(scene_, model_.system, model_.warnings);
-    if (!model_.system.laws.empty()) number(model_.system);  // for those who look at the motion's own rates
+    if (!model_.system.laws.empty()) number(model_.system);  // for code that uses the motion's own rates
     for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_))
       model_.warnings.push_back(std::move(warning));
     scheme();
@@ -112,7 +112,7 @@ class Builder {
     model_.outlines.push_back(std::move(outline));
   }
 
-  /// A rigid body moves by its mass and inertia; a scene may leave them out where nothing asks for them.
+  /// A rigid body needs mass and inertia; a scene may leave them out where they have no effect.
   void validate_mass(const SceneBody& b) const {
     std::string missing;
     if (b.mass == 0) missing = "mass: 0.3 kg";
@@ -136,7 +136,7 @@ class Builder {
     model_.system.joint_names.push_back(j.name);
   }
 
-  /// Its ends are on bodies of their own.
+  /// Its ends are on different bodies.
   void apart(const SceneJoint& j) const {
     markers_.two_bodies(j.a, j.b, j.place);
     if (j.coupling && !j.coupling->terms.empty()) {
@@ -147,7 +147,7 @@ class Builder {
     }
   }
 
-  /// The contact that it is, and the joint that it would be.
+  /// Adds the contact, and the joint without clearance.
   void add_play(const SceneJoint& j, int& order) {
     const Joint ideal = joint_of(scene_, j, markers_);
     order = static_cast<int>(model_.system.contacts.size());
@@ -162,7 +162,7 @@ class Builder {
     model_.system.loose_names.push_back(j.name);
   }
 
-  /// Pairs of the journal and the pieces of an open bearing, and the closed one that it would be without clearance.
+  /// Adds pairs of the journal and the pieces of an open bearing, and the joint without clearance.
   void add_open_bearing(const SceneJoint& j, int& order) {
     const std::array<Profile, 2> profiles = open_bearing(scene_, j);
     const bool b_bears = j.clearance->bearing == j.b.body;
@@ -312,7 +312,7 @@ class Builder {
     return std::visit(size, joint);
   }
 
-  // The largest arm of a body or distance between ground points: what "small" is measured by.
+  // The largest arm of a body or distance between ground points: the scale for "small".
   double size() const {
     double length = 0;
     for (const Marker& m : model_.system.markers) length = std::max(length, m.x_BP.norm());
@@ -348,7 +348,7 @@ class Builder {
   BodyStore* store_;
   Model model_;
   ElasticBodies elastic_;
-  std::vector<std::optional<MechanismBody>> elements_;  ///< of bodies made of elements
+  std::vector<std::optional<MechanismBody>> elements_;  ///< for bodies made of elements
   Markers markers_;
   SignalMaker signals_;
   std::map<std::pair<std::string, std::string>, Profile> profiles_;

@@ -16,18 +16,18 @@ namespace pintle {
 
 namespace {
 
-// Rows and frames are read between the steps: of dopri5 by dense output, brought onto the joints by one evaluation; of verner87,
-// whose steps are too long for that, by a step of its own.
+// Rows and frames are sampled between the steps: with dopri5 by dense output, projected onto the joints with one evaluation; with verner87,
+// whose steps are too long for that, by a separate step.
 const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, const Demand& d) {
-  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // of the demand, by a smooth motion
-  constexpr double read = 1000;                             // as a run writes by default: what this one writes must not change its motion
+  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // relative to the demand; share needed by a smooth motion
+  constexpr double read = 1000;                             // default number of rows; the actual number must not affect the motion
   const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
   const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
-  const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and what is smooth goes on
+  const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and smooth motion continues
   const bool dearer = high->stages() * (long_steps + read) > (low->stages() - 1) * steps + read;
   return scene.run.tolerance > fine || by_contacts || dearer ? low : high;
 }
-constexpr double rate_reached = 1.0, decay_reached = 3.3;  // of dopri5 along the axes
+constexpr double rate_reached = 1.0, decay_reached = 3.3;  // stability limits of dopri5 along the axes
 
 std::string short_number(double x) {
   std::ostringstream s;
@@ -36,7 +36,7 @@ std::string short_number(double x) {
   return s.str();
 }
 
-/// What a unit force, along the direction that gives most, or a unit couple on a marker speeds up. [1/kg], [1/(kg m²)]
+/// Acceleration by a unit force, in the most favourable direction, or by a unit couple on a marker. [1/kg], [1/(kg m²)]
 struct Mobility {
   double force = 0, couple = 0;
 };
@@ -73,7 +73,7 @@ class Parts {
       see({omega, 2 * body.flex->zeta[i] * omega, "mode " + std::to_string(i + 1) + " of \"" + body.name + "\""});
     }
   }
-  // The rate at which the force of a contact changes that comes by a hundredth of the motion's speed.
+  // Rate of change of the force of a contact that closes at a hundredth of the motion's speed.
   void see(const ContactPair& pair, double motion, const std::string& name) {
     if (is_held(pair) || pair.pair > 0) return;
     found.struck = true;
@@ -84,7 +84,7 @@ class Parts {
     if (depth > 0 && found.parts.back().decay > found.most_damped.decay) found.most_damped = found.parts.back();
     if (depth > 0) found.strike = std::max(found.strike, speed / depth);
   }
-  // Bristles under the preload and the weight of what moves.
+  // Bristles under the preload and the weight of the moving bodies.
   void see(const JointFriction& rub, const std::string& name) {
     const BristleConstants bristles = bristle_constants(rub.law);
     if (bristles.stiffness == 0) return;
@@ -94,7 +94,7 @@ class Parts {
     const double load = rub.preload + system_.gravity.norm() / (a.force + b.force);
     see({std::sqrt(load * bristles.stiffness * w), load * bristles.damping * w, "the bristles in \"" + name + "\""});
   }
-  // As stiff and as damped as the laws are where the scene starts.
+  // With the stiffness and damping of the laws at the start of the scene.
   void see_laws(const Scene& scene) {
     const Eigen::VectorXd y = drawn(scene);
     std::array<double, most_law_inputs> in, slope{};
@@ -112,10 +112,10 @@ class Parts {
     see_states(y);
   }
   RateSpectrum found;
-  double pushed = 0;  ///< √(acceleration/length) by the laws of forces where the scene starts [rad/s]
+  double pushed = 0;  ///< √(acceleration/length) due to the laws of forces at the start of the scene [rad/s]
 
  private:
-  // How the scene's own states follow each other, the motion held: the fastest of their exponential rates.
+  // Coupling of the scene's own states with the motion held: the fastest of their exponential rates.
   void see_states(const Eigen::VectorXd& y) {
     std::array<double, most_law_inputs> in, slope{};
     const auto n = static_cast<Eigen::Index>(system_.states.size());
@@ -131,11 +131,11 @@ class Parts {
     if (n == 0) return;
     Eigen::Index own, fastest;
     const double decay = J.diagonal().cwiseAbs().maxCoeff(&own), rate = spectral_radius(J, fastest);
-    constexpr double known = 0.1;  // of the rate, whatever the units
+    constexpr double known = 0.1;  // accuracy of the rate, for any units
     const bool alone = rate <= (1 + known) * decay;
     see({alone ? 0 : rate, decay, "the state \"" + system_.states[at(alone ? own : fastest)].name + "\""});
   }
-  // ‖A^m‖^(1/m) with m = 2^10, whatever the units of the states: within a few per cent. @param row  that grows most
+  // ‖A^m‖^(1/m) with m = 2^10, for any units of the states: accurate to a few per cent. @param row  that grows most
   static double spectral_radius(Eigen::MatrixXd power, Eigen::Index& row) {
     double log = 0, part = 1;
     for (int squarings = 0;; ++squarings) {
@@ -153,7 +153,7 @@ class Parts {
     const double turning = std::abs(size) * (couple ? a.couple + b.couple : (a.force + b.force) / system_.length);
     if (std::isfinite(turning)) pushed = std::max(pushed, std::sqrt(turning));
   }
-  // The signal moves by what the force does to it, at the most.
+  // Upper bound of the effect of the force on the signal.
   void see(const SizedForce& force, const MotionSignal& signal, double slope, const std::string& name) {
     using Kind = MotionSignal::Kind;
     if (signal.kind == Kind::state || !std::isfinite(slope)) return;
@@ -167,7 +167,7 @@ class Parts {
     const bool rate = is_speed(signal.kind);
     see({rate ? 0 : std::sqrt(slope * w), rate ? slope * w : 0, "the law of \"" + name + "\""});
   }
-  /// y where the scene draws its bodies, at the speeds that it gives.
+  /// y for the drawn bodies, at the speeds given by the scene.
   Eigen::VectorXd drawn(const Scene& scene) const {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(system_.n_y());
     for (std::size_t b = 0; b < scene.bodies.size() && b < system_.bodies.size(); ++b) {
@@ -215,8 +215,8 @@ double motion_of(const Scene& scene, const System& system) {
   return motion;
 }
 
-/// What forces by laws of time make of a mechanism at rest, and how fast they change: √(acceleration/length), and rate over size in
-/// the mean of their squares.
+/// The motion that forces with laws of time cause in a mechanism at rest, and the rate of the forces: √(acceleration/length), and the root
+/// mean square of the rate over that of the size.
 double pushed_by_laws_of_time(const Scene& scene, const System& system) {
   constexpr int samples = 64;
   double fastest = 0;
@@ -238,7 +238,7 @@ double pushed_by_laws_of_time(const Scene& scene, const System& system) {
   return fastest;
 }
 
-/// How fast what nothing drives moves: as it is pushed, as what swings through the whole run, and not less than the run lets see.
+/// Rate of a motion without drivers: due to the forces, or of what oscillates through the whole run, and at least what the run can show.
 double undriven_motion(const Scene& scene, const System& system, const RateSpectrum& s, double pushed) {
   double swing = 0;
   for (const RateSpectrum::Part& p : s.parts) {
@@ -259,7 +259,8 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
   return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
 }
 
-// At one tolerance a whole run of generalised-α errs by its power ⅔, an explicit one by the tolerance itself.
+// For a given tolerance, the error of a whole run is the tolerance to the power ⅔ with generalised-α, and the tolerance itself with an
+// explicit scheme.
 constexpr double dearer = 8;
 
 bool has_rigid_contacts(const System& system) {
@@ -308,9 +309,9 @@ RateSpectrum spectrum(const Scene& scene, const System& system) {
   return s;
 }
 
-// A step h of order p in an oscillation of rate r whose speed is A times the motion's errs by (hr)ᵖ A about; the
-// constants are those that the schemes show on a slider-crank. Inertia bends what is elastic by a fifth of
-// (motion/r)², and lets it ring so from the start, or from an impact, until damping has brought that to the tolerance.
+// A step h of order p in an oscillation of rate r, whose speed is A times that of the motion, has an error of about (hr)ᵖ A; the constants
+// are those observed for the schemes on a slider-crank. Inertia forces deflect an elastic part by a fifth of (motion/r)², and it oscillates
+// with this amplitude from the start, or from an impact, until damping has reduced it to the tolerance.
 Demand demand(const RateSpectrum& s, double tolerance) {
   constexpr double explicit_order = 5, high_order = 8, implicit_order = 3, explicit_constant = 0.7, high_constant = 0.4,
                    implicit_constant = 1, bent = 0.2;
@@ -330,7 +331,7 @@ Demand demand(const RateSpectrum& s, double tolerance) {
 
 namespace {
 
-// Moreau's scheme knows impulses of rigid contacts, and forces that change little in a step.
+// Moreau's scheme handles impulses of rigid contacts, and forces that change little in a step.
 void require_rigid(const Scene& scene, const System& system) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, scene.run.place, "moreau takes " + message); };
   if (!(scene.run.step > 0 && scene.run.step <= scene.run.until)) wrong("steps of one length, above 0 and no longer than the run");

@@ -27,12 +27,12 @@ bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal
 
 std::array<double, 2> radii_in(const SceneClearance& c) { return {c.bearing_radius - c.radial, -c.bearing_radius}; }
 
-/// The contact law of the scene's words.
+/// The contact law described in the scene.
 NormalLaw law_of(const Scene& scene, const SceneClearance& c) { return normal_law(scene, c.normal, contact_stiffness(c), radii_in(c)); }
 
 bool rubs(const SceneClearance& c) { return c.friction && rubs(*c.friction); }
 
-/// What of the scene's words the model does not use.
+/// Entries of the scene that the model does not use.
 std::string left_out(const SceneClearance& c) {
   std::vector<std::string> unused;
   const bool given = c.stiffness && c.damping;
@@ -47,8 +47,8 @@ std::string left_out(const SceneClearance& c) {
   return out;
 }
 
-/// Completes the spring and damper. E = F c is the energy that the ideal joint's force F has over the clearance c; the
-/// spring stores it at the depth at which the contact does, the damper takes as much of it. @returns this, in words
+/// Completes the spring and damper. E = F c is the energy of the ideal joint's force F over the clearance c. The spring stores it at the
+/// same depth as the contact does; the damper dissipates the same energy. @returns this, in words
 std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& pin, ContactPair& pair) {
   const NormalLaw law = law_of(scene, c);
   ImpactLaw& spring = *std::get_if<ImpactLaw>(&pair.normal);
@@ -250,7 +250,7 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
     pair.normal = law_of(scene, c);
     pair.pressure = pressure_of(scene, c.normal, radii_in(c));
   } else {
-    if (!(c.stiffness && c.damping)) law_of(scene, c);  // judged now, asked for what is missing by complete_clearances
+    if (!(c.stiffness && c.damping)) law_of(scene, c);  // checked now, because complete_clearances needs it for what is missing
     if ((c.stiffness && !(*c.stiffness > 0)) || (c.damping && !(*c.damping >= 0)))
       wrong(c.place, "stiffness must be above 0, and damping must not be negative");
     pair.normal = ImpactLaw{.k = c.stiffness.value_or(0), .n = 1, .chi = 0, .d = c.damping.value_or(0)};

@@ -29,7 +29,7 @@ const std::vector<SceneProfile>& profiles_of(const Scene& scene, const PointRef&
   return body->profiles;
 }
 
-/// The one curvature of all its lines and arcs [1/m]; nothing if they differ.
+/// The common curvature of all its lines and arcs [1/m]; nothing if they differ.
 std::optional<double> curvature(const Profile& profile) {
   std::optional<double> out;
   for (const Piece& p : profile.pieces) {
@@ -54,7 +54,7 @@ double stiffness_of(const Scene& scene, const SceneContact& c, const Profile& pr
   return hertz_stiffness(1 / (*a + *b), n.bearing.young, n.bearing.poisson, n.journal.young, n.journal.poisson);
 }
 
-/// Radii of the two as cylinders have them.
+/// Radii of the two profiles, with the signs used for cylinders.
 std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const Profile& profile_a, const Profile& profile_b) {
   const std::optional<double> a = curvature(profile_a), b = curvature(profile_b);
   const bool flat_too = find_cylinder_law(c.normal.law)->of_a_layer;
@@ -67,13 +67,13 @@ std::array<double, 2> radii_of(const Scene& scene, const SceneContact& c, const 
   return {radius(*a), radius(*b)};
 }
 
-/// A straight stretch of a curve is to a line, or to what is as straight, a line.
+/// A straight part of a curve counts as a line against a line or another straight part.
 bool turns_too_little(const Piece& curve, const Piece& other) {
   constexpr double straight = 1e-6;  // [rad]
   return curve.curve && curve.curve->turn() < straight && (other.straight || other.curve);
 }
 
-/// Can they touch at a point inside both? Where two lines lie on each other, or a line in a hollow, corners do.
+/// Can they touch at an inner point of both? Where two lines lie on each other, or a line lies in a hollow, corners touch.
 bool may_touch(const Piece& a, const Piece& b) {
   if ((a.straight || is_corner(a)) && (b.straight || is_corner(b))) return a.straight != b.straight;
   const bool hollow_a = is_hollow(a), hollow_b = is_hollow(b);
@@ -83,7 +83,7 @@ bool may_touch(const Piece& a, const Piece& b) {
   return !a.straight && !b.straight && a.radius + b.radius < 0;
 }
 
-// The pairs of pieces that may touch, each as `like`; what lies beyond their ends by number among them.
+// The pairs of pieces that may touch, each with the properties of `like`; the pairs beyond their ends by index.
 std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b,
                                        const ContactPair& like) {
   const int n_a = static_cast<int>(a.pieces.size()), n_b = static_cast<int>(b.pieces.size());
@@ -96,8 +96,8 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
       ContactPair& pair = out.emplace_back(like);
       pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
       pair.pair = static_cast<int>(out.size()) - 1;
-      const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round ones end by their normals
-        const bool of_a_ring = like.journal && std::isfinite(piece.half);                     // whose outer arc has its middle in the air
+      const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round pieces end by their normals
+        const bool of_a_ring = like.journal && std::isfinite(piece.half);                     // the middle of its outer arc is in the air
         if (piece.straight || piece.radius < 0 || piece.curve || of_a_ring)
           pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
       };
@@ -109,7 +109,8 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
                      quoted(c.a.body + "." + c.a.point) + " and " + quoted(c.b.body + "." + c.b.point) +
                          " cannot touch: both are hollow, or one is too large for the other; change `material` or a radius");
 
-  // What lies beyond the ends of pieces: another pair; or, where pieces lie along each other, none, and the contact stays a while.
+  // What lies beyond the ends of pieces: another pair; or, where pieces lie along each other, none, and the contact is kept a little
+  // longer.
   constexpr double while_turning = std::numbers::pi / 4, while_sliding = 0.5;
   for (int i = 0; i < n_a; ++i)
     for (int j = 0; j < n_b; ++j) {
@@ -127,7 +128,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
         if (joined) now.beyond[side] = pair_of[at(of_a ? next * n_b + j : i * n_b + next)];
         const Piece &piece = profile.pieces[at(here)], &other = of_a ? b.pieces[at(j)] : a.pieces[at(i)];
         const bool off_a_corner = joined && is_corner(profile.pieces[at(next)]) && is_corner(other);
-        const bool into_the_air = is_hollow(piece) || piece.curve;  // a hollow arc or a curve, gone on with, leaves the surface
+        const bool into_the_air = is_hollow(piece) || piece.curve;  // extended, a hollow arc or a curve would leave the surface
         if (now.beyond[side] < 0 && !off_a_corner && !into_the_air)
           now.extent[side] += piece.straight ? while_sliding : while_turning / piece.half;
       }
@@ -135,13 +136,13 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
   return out;
 }
 
-// It has corners without an arc, beside the ends of an open path.
+// It has corners without an arc, apart from the ends of an open path.
 bool has_sharp_corners(const Profile& profile) {
   const auto ends = profile.closed ? 0 : 2;
   return std::ranges::count_if(profile.pieces, is_corner) > ends;
 }
 
-// The radius of the narrowest hollow of a curve, if nothing of the other profile fits in; else 0 [m].
+// The radius of the narrowest hollow of a curve, if no part of the other profile fits in; otherwise 0 [m].
 double too_hollow(const Profile& a, const Profile& b) {
   double out = 0;
   for (const auto& [hollow, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {

@@ -20,7 +20,7 @@ namespace {
 
 // ---- joints before they are complete ----
 
-/// The ends of a relation, and the place of each point among them.
+/// The ends of a relation, and the index of each point among them.
 class Ends {
  public:
   Ends(const Scene& scene, const SceneJoint& j, Markers& markers) : scene_(scene), place_(j.place), points_(points_of(j)) {
@@ -67,7 +67,7 @@ Relation of_terms(const Scene& scene, const SceneJoint& j, Markers& markers) {
 
 PointRef frame_of(const SceneJoint& j) { return j.c.value_or(PointRef{"ground", "", j.place}); }
 
-// Of shafts or a shaft and a slide, and the cage or frame c that both are measured against: ends a, b, c.
+// For shafts or a shaft and a slide, with the cage or frame c as reference of both: ends a, b, c.
 constexpr int shaft = 0, follower = 1, frame = 2;
 Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
   const bool slides = j.kind == JointKind::screw || (j.kind == JointKind::cam && !j.coupling->swings);
@@ -75,7 +75,7 @@ Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
                         markers.marker(frame_of(j), Holds::direction)},
                        3};
   const Coordinate::Kind moves = slides ? Coordinate::displacement : Coordinate::angle;
-  if (j.kind == JointKind::cam) {  // over the angle of the cam in the frame's axes, whatever direction the lift has there
+  if (j.kind == JointKind::cam) {  // over the angle of the cam in the frame's axes, for any direction of the lift there
     const double direction = markers.marker_at(frame_of(j), Holds::direction).angle;
     TimeLaw curve = [of = j.coupling->curve.at, direction](double angle) { return of(angle + direction); };
     return relation(!slides, ends, {{Coordinate::angle, frame, shaft, 0}, {moves, frame, follower, 1}}, std::move(curve));
@@ -91,7 +91,7 @@ Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
 
 // ---- at the start ----
 
-/// Completes one joint by the motion of its markers.
+/// Completes one joint from the motion of its markers.
 class Settling {
  public:
   Settling(const Scene& scene, const System& system, const Eigen::VectorXd& y)
@@ -138,7 +138,7 @@ class Settling {
     const double apart = (motion_[at(one.a)].r - motion_[at(other.a)].r).norm(), a = std::abs(one.radius_a), b = std::abs(other.radius_a);
     if (!(apart > a + b)) overlap(l.place, apart, a, b);
   }
-  /// Constant per span: stiffness over its length.
+  /// Constant for each span: stiffness over its length.
   void complete(const SceneBelt& belt, BeltSpan& span) const {
     const MarkerMotion &a = motion_[at(span.a)], &b = motion_[at(span.b)];
     const double delta = span.radius_b - span.radius_a, apart = (b.r - a.r).norm();
@@ -151,7 +151,7 @@ class Settling {
 
  private:
   [[noreturn]] void wrong(const Place& place, const std::string& message) const { throw SceneError(scene_.file, place, message); }
-  /// What does not slip is the row `row` of the joint.
+  /// Row `row` of the joint is the no-slip condition.
   template <class Wheels>
   void mesh(const SceneJoint& j, const Joint& made, Wheels& wheels, int row) const {
     fit(j, wheels);
@@ -170,13 +170,13 @@ class Settling {
     evaluate_pose(joint, motion_.data(), 0, rows, L.data());
     return rows.C[row];
   }
-  /// The angle that a cam's curve is over.
+  /// The angle that is the argument of a cam's curve.
   double input(const Relation& j) const {
     const int of = j.ends.marker[shaft], against = j.ends.marker[frame];
     return motion_[at(of)].angle - motion_[at(against)].angle + system_.markers[at(against)].angle;
   }
 
-  /// Radii from teeth, and whether wheels touch or pulleys are apart.
+  /// Computes radii from teeth, and checks that wheels touch or pulleys are apart.
   void fit(const SceneJoint& j, Gear& gear) const {
     const double apart = (motion_[at(gear.b)].r - motion_[at(gear.a)].r).norm(), sum = std::abs(gear.radius_a + gear.radius_b);
     const double a = gear.radius_a, b = std::abs(gear.radius_b);
@@ -199,7 +199,7 @@ class Settling {
                             ? gear.radius_b > 0 ? ", or write inside: true" : ", or leave out inside"
                             : ""));
   }
-  /// The side of the line, and whether the wheel touches it.
+  /// Determines the side of the line, and checks that the wheel touches it.
   void fit(const SceneJoint& j, Rack& rack) const {
     const MarkerMotion &a = motion_[at(rack.a)], &b = motion_[at(rack.b)];
     const double height = perp(a.u).dot(b.r - a.r);
@@ -208,7 +208,7 @@ class Settling {
                          length(rack.radius) + "; correct the radius or the points, or turn the direction of the line");
     if (height < 0) rack.radius = -rack.radius;
   }
-  /// How far off a drawing may be, over the radius: what rolls is brought into contact, gears are held by other joints.
+  /// Allowed error of a drawing, relative to the radius: rolling discs are brought into contact, gears are held by other joints.
   static double played(const SceneJoint& j) { return j.kind == JointKind::rolling ? 0.05 : 1e-3; }
 
   const Scene& scene_;
@@ -216,10 +216,10 @@ class Settling {
   std::vector<MarkerMotion> motion_;
 };
 
-/// A loose joint that is a coupling: teeth with backlash.
+/// A joint with clearance that is a coupling: teeth with backlash.
 bool meshes(const Joint& loose) { return std::holds_alternative<Gear>(loose) || std::holds_alternative<Rack>(loose); }
 
-/// What places the bodies, without some of the joints and all loose couplings: neither forces nor what they depend on.
+/// The joints that place the bodies, without some of the joints and all couplings with clearance: without forces and what they depend on.
 System without(const System& system, const std::vector<int>& joints) {
   System rest;
   rest.gravity = system.gravity;
@@ -252,10 +252,10 @@ Joint coupling_of(const Scene& scene, const SceneJoint& j, Markers& markers) {
   const SceneCoupling& c = *j.coupling;
   const int a = markers.marker(j.a, Holds::direction), b = markers.marker(j.b, Holds::direction);
   if (c.radius > 0) return j.kind == JointKind::rack ? Joint{Rack{a, b, c.radius}} : Joint{RollsOnLine{{a, b, c.radius}}};
-  constexpr double small = 1e-9;  // so that teeth are no size of the mechanism before their radii are known
+  constexpr double small = 1e-9;  // so that teeth do not affect the size of the mechanism before their radii are known
   const Pair sizes = c.teeth[0] > 0 ? Pair{small * c.teeth[0], small * c.teeth[1]} : c.radii;
   if (!(sizes[0] > 0 && sizes[1] > 0)) throw SceneError(scene.file, j.place, "the radii of its wheels must be above 0");
-  const bool alike = c.inside || (j.kind == JointKind::belt && !c.crossed);  // both turn the same way round
+  const bool alike = c.inside || (j.kind == JointKind::belt && !c.crossed);  // both turn in the same direction
   const Gear gear{a, b, sizes[0], alike ? -sizes[1] : sizes[1]};
   return j.kind == JointKind::rolling ? Joint{RollsOnDisc{gear}} : Joint{gear};
 }

@@ -10,20 +10,20 @@
 
 namespace pintle {
 
-/// Joined by wheels, a curve or a linear relation: what complete_couplings derives from the start.
+/// Joined by wheels, a curve or a linear relation: data that complete_couplings computes from the start.
 bool is_coupling(const SceneJoint&);
 
 /// The joint of a coupling, not yet complete.
-/// @throws SceneError  sizes or ratios that cannot be; points that are not there or have no direction
+/// @throws SceneError  invalid sizes or ratios; points that do not exist or have no direction
 Joint coupling_of(const Scene&, const SceneJoint&, Markers&);
 
 /// The spans of an elastic belt in order, not yet complete.
 /// @throws SceneError  likewise
 std::vector<BeltSpan> spans_of(const Scene&, const SceneLoad&, const SceneBelt&, Markers&);
 
-/// Completes what follows from where the mechanism is at the start, assembled without it: the phases of couplings, radii from teeth,
-/// the side on which a wheel runs, belts' tensions, and lengths and laws that add to `present`. Costs nothing where there are none.
-/// @throws SceneError  wheels whose centres are not as far apart as their radii ask   @throws AssemblyError  as assemble
+/// Computes what depends on the start configuration, which is assembled without it: the phases of couplings, radii from teeth, the side on
+/// which a wheel runs, belt tensions, and lengths and laws relative to `present`. Costs nothing where there are none.
+/// @throws SceneError  wheels whose centre distance does not match their radii   @throws AssemblyError  as assemble
 void complete_couplings(const Scene&, Model&);
 
 }  // namespace pintle

@@ -25,7 +25,7 @@ namespace pintle {
 
 namespace {
 
-// An element as the scene names it.
+// An element as named in the scene.
 struct Element {
   Switch is;
   Place place;
@@ -78,7 +78,7 @@ void each_doing(const SceneEvent& event, F f) {
   f(event.otherwise);
 }
 
-// The laws of one event: of the motion alone, or of what a row of the trajectory would have.
+// The laws of one event: of the motion alone, or of the values in a row of the trajectory.
 class EventLaws {
  public:
   EventLaws(const Scene& scene, const Model& model, SignalMaker& signals) : scene_(scene), model_(model), signals_(signals) {}
@@ -94,7 +94,7 @@ class EventLaws {
     if (!rows_) rows_ = std::make_shared<Model>();
     return {rows_, written_output(scene_, {event.name, law, "", event.place}, model_, signals_)};
   }
-  /// What rows are made of, when all laws are made.
+  /// The columns of rows, once all laws are made.
   void finish() const {
     if (!rows_) return;
     rows_->system = model_.system;
@@ -129,7 +129,7 @@ SetState setting(const Scene& scene, const SceneEvent& event, const std::string&
           }};
 }
 
-// Of a gear or rack with backlash, where it is known.
+// Of a gear or rack with backlash, where known.
 double pitch_of_teeth(const Scene& scene, const Model& model, const std::string& name) {
   const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
   if (joint == scene.joints.end() || !joint->play || !joint->coupling) return 0;
@@ -153,7 +153,7 @@ std::vector<EventAction> actions_of(const Scene& scene, const SceneEvent& event,
   return out;
 }
 
-// The condition's comparisons; none of one that does not change.
+// The condition's comparisons; none if it is constant.
 std::vector<Comparison> comparisons_of(const SceneEvent& event) {
   if (event.guard.constant) return {};
   const auto* of_time = event.guard.at.target<Program>();
@@ -165,7 +165,7 @@ Known known_of_condition(const SceneEvent& event, double until) {
   return known_of(comparisons_of(event), until);
 }
 
-// Where what is known beforehand says that an event never does anything, or always.
+// Warns if an event can never do anything, or always does, judged by what is known beforehand.
 void warn_of_events(const Scene& scene, Model& model) {
   std::set<std::string> released, engaged;
   for (const SceneEvent& event : scene.events)
@@ -192,7 +192,7 @@ void warn_of_events(const Scene& scene, Model& model) {
   }
 }
 
-// The rate of a signal that is one of places alone; NaN of others.
+// The rate of a signal that depends only on positions; NaN for others.
 double rate_of(const System& system, const MotionSignal& signal, const State& state) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (signal.kind == MotionSignal::state) return unknown;
@@ -210,7 +210,7 @@ Inputs inputs_of(const System& system, const SignalLaw& law, const State& state)
   return in;
 }
 
-// A comparison of t alone.
+// A comparison that depends only on t.
 SceneComparison of_time(const Law& law, const Comparison& from, const std::string& told) {
   return {.difference =
               [at = law.at, size = from.size](const System&, const State& state, const Wanted& wanted) {
@@ -222,7 +222,7 @@ SceneComparison of_time(const Law& law, const Comparison& from, const std::strin
           .seen = [law, told](const System&, const State& state) { return told + seen_by_law(law, {}, state.t, {}); }};
 }
 
-// What else is wanted of a comparison whose inputs are read.
+// Computes further data of a comparison whose inputs have been read.
 class Reading {
  public:
   explicit Reading(const Comparison& of) : size_(of.size), sides_(of.difference), inputs_(SignalFormula(of.difference).inputs) {}
@@ -241,7 +241,7 @@ class Reading {
   std::size_t inputs_;
 };
 
-// "crank.angle = 1 rad, t = 2 s", of the inputs that `read` gives.
+// "crank.angle = 1 rad, t = 2 s", for the inputs given by `read`.
 template <class Read>
 std::function<std::string(const System&, const State&)> seen_by(const Law& law, const std::string& told, const Read& read) {
   return [read, law, told](const System& system, const State& state) {

@@ -13,7 +13,7 @@ namespace pintle {
 
 namespace {
 
-/// A point's direction where its body's rough pose and start put it.
+/// A point's direction for the rough pose and start of its body.
 double drawn_angle(const Scene& scene, const PointRef& ref, const Markers& markers) {
   const int b = markers.body(ref);
   double angle = markers.marker_at(ref, Holds::direction).angle;
@@ -24,7 +24,7 @@ double drawn_angle(const Scene& scene, const PointRef& ref, const Markers& marke
   return angle;
 }
 
-/// The joint's angle with the whole turns that its bodies' rough poses show.
+/// The joint's angle including the whole turns in the rough poses of its bodies.
 double nearest_turn(const Scene& scene, const SceneJoint& j, const Markers& markers) {
   constexpr double turn = 2 * std::numbers::pi;
   const double drawn = drawn_angle(scene, j.b, markers) - drawn_angle(scene, j.a, markers);

@@ -15,14 +15,14 @@ namespace pintle {
 
 namespace {
 
-constexpr double steps_through_laws = 1000;  // of a run whose laws are not known
+constexpr double steps_through_laws = 1000;  // steps of a run whose laws are not known
 
 bool stands_still(const Law& law, double until) {
   const Jet first = law.at(0), last = law.at(until);
   return law.constant && first.value == last.value && first.rate == 0 && last.rate == 0;
 }
 
-/// A jump of what a driver imposes, or of its speed, is an impact, whose energy no equation here books.
+/// A jump of what a driver imposes, or of its speed, is an impact, whose energy is not accounted for here.
 void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& scale) {
   for (const LawBreak& b : scale.breaks) {
     const bool place = value_jumps(b);
@@ -37,7 +37,7 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
   }
 }
 
-/// Between the moments that the reader looks at.
+/// Checks between the times that the reader checks.
 void validate_finite(const Scene& scene, const Law& law, const Place& place, const LawScale& scale, bool driver) {
   const auto fail = [&](const char* what, double t) {
     throw SceneError(scene.file, place,
@@ -61,7 +61,7 @@ void each_law(const Scene& scene, F f) {
     if (const auto* spring = std::get_if<SceneSpring>(&l.what); spring && spring->law) see(*spring->law);
     if (const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what); torsion && torsion->law) see(*torsion->law);
   }
-  for (const SceneEvent& e : scene.events)  // so that no step passes one that comes and goes
+  for (const SceneEvent& e : scene.events)  // so that no step skips a short one
     for (const Law& law : e.when)
       if (law.at) f(law, e.name, e.place, static_cast<const SceneDriver*>(nullptr));
 }
@@ -73,7 +73,7 @@ const Program* formula_of(const Law& law) {
   return nullptr;
 }
 
-/// Calls f(law of time) for what t alone switches inside laws of signals.
+/// Calls f(law of time) for conditions of t alone inside laws of signals.
 template <class F>
 void each_switch_of_time(const Scene& scene, F f) {
   const auto see = [&](const Law& law) {
@@ -91,7 +91,7 @@ void each_switch_of_time(const Scene& scene, F f) {
     for (const Law& law : e.when) see(law);
 }
 
-/// Where a comparison of t alone, given as a difference, comes to zero: steps end there, to the last digit.
+/// Adds the times at which a comparison of t alone, given as a difference, is zero: steps end there, to the last digit.
 void end_at_zeros(const TimeLaw& difference, double until, std::vector<LawChange>& changes) {
   const auto* program = difference.target<Program>();
   if (!program) return;
@@ -106,7 +106,7 @@ void end_at_zeros(const TimeLaw& difference, double until, std::vector<LawChange
   }
 }
 
-/// Of a law of signals that names t too nothing is known of when it acts.
+/// For a law of signals that also contains t, the times at which it acts are unknown.
 bool uses_time_beside_signals(const Scene& scene) {
   const auto uses = [](const Law& law) { return law.uses_time && !law.signals.empty(); };
   const auto any = [&](const SceneLoad& l) {
@@ -119,9 +119,9 @@ bool uses_time_beside_signals(const Scene& scene) {
   return std::ranges::any_of(scene.loads, any) || std::ranges::any_of(scene.states, [&](const SceneState& s) { return uses(s.rate); });
 }
 
-/// Which of the pieces that end so are no straight lines.
+/// The pieces with these ends that are not linear.
 std::vector<LawBend> bends_of(const TimeLaw& law, const std::vector<double>& ends) {
-  constexpr double edge = 1e-6, rounding = 1e-9;  // of a piece: a jump before it is none of its own; of rates
+  constexpr double edge = 1e-6, rounding = 1e-9;  // relative to a piece: a jump before it does not belong to it; relative to rates
   std::vector<LawBend> out;
   double begin = 0;
   for (const double end : ends) {
@@ -142,7 +142,7 @@ bool accelerates_anew(const LawBreak& b) {
   return std::abs(b.right.accel - b.left.accel) > 1e-9 * std::max(std::abs(b.left.accel), std::abs(b.right.accel));
 }
 
-/// In order, those that fall together made one.
+/// Sorts them and merges those that coincide.
 void order(std::vector<LawChange>& changes) {
   std::sort(changes.begin(), changes.end(), [](const LawChange& a, const LawChange& b) { return a.before < b.before; });
   std::vector<LawChange> apart;

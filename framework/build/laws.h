@@ -7,13 +7,13 @@
 
 namespace pintle {
 
-/// Fills the times that steps owe to the laws of drivers and loads: changes and pieces; and max_step, as the scene says, or where
-/// nothing is known of a law, which may do nothing for long and then act.
+/// Sets the times at which steps must end because of laws of drivers and loads: changes and pieces; and max_step, from the scene or where a
+/// law is unknown, which may have no effect for long and then act.
 /// @throws SceneError  a law is not finite, a driver's law jumps, or its speed does
 void follow_laws(const Scene&, Scheme&);
 
-/// Which law makes a run fail at t, where that could not be seen before: it is not finite there, or grows far faster than until
-/// then. Empty: none does.
+/// Describes a law that makes a run fail at t, where this was not visible before: it is not finite there, or grows much faster than before.
+/// Empty: none.
 std::string explain_laws(const Scene&, double t);
 
 }  // namespace pintle

@@ -10,7 +10,7 @@ namespace pintle {
 
 namespace {
 
-/// Makes the forces of one load; laws of signals size them by SizedForce, laws of time and constants need no signal.
+/// Creates the forces of one load; laws of signals use SizedForce, laws of time and constants need no signal.
 class Loading {
  public:
   Loading(const Scene& scene, const SceneLoad& load, Markers& markers, SignalMaker& signals, Model& model)

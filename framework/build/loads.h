@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// The forces that a load of the scene is: one, of an elastic belt one for each span.
+/// Adds the forces of a load in the scene: one, or for an elastic belt one per span.
 /// @throws SceneError  it acts on nothing that moves, or its ends are on one body
 void add_load(const Scene&, const SceneLoad&, Markers&, SignalMaker&, Model&);
 

@@ -55,7 +55,7 @@ Marker Markers::marker_at(const PointRef& ref, Holds what) const {
 }
 
 int Markers::index_of(const Marker& made, const std::string& point) {
-  const bool flexible = made.shape.size() > 0;  // two points of one place may move differently
+  const bool flexible = made.shape.size() > 0;  // two points at one place may move differently
   const auto [known, is_new] = known_.try_emplace({made.body, made.x_BP.x(), made.x_BP.y(), made.angle, flexible ? point : ""},
                                                   static_cast<int>(model_.system.markers.size()));
   if (is_new) {
@@ -78,8 +78,8 @@ Vector2d Markers::place(const PointRef& ref) const {
   return m.body == ground ? m.x_BP : m.x_BP - model_.system.bodies[static_cast<std::size_t>(m.body)].x_BO;
 }
 
-// Under `stiffening: rotation` joints hold points of first order, so that those are recorded where the joints are; others
-// come nearer as the body bends.
+// With `stiffening: rotation` joints act on points of first order, so points at joints are recorded to first order; others include the
+// second-order shortening due to bending.
 Marker Markers::recorded_at(const PointRef& ref) const {
   Marker m = marker_at(ref, Holds::point);
   if (m.shape.size() == 0 || m.second[0].size() > 0) return m;

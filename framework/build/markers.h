@@ -12,16 +12,16 @@
 
 namespace pintle {
 
-/// What takes hold of a direction needs one: on bodies of elements not every point has it.
+/// Whether a direction is needed: on bodies of elements not every point has one.
 enum class Holds { point, direction };
 
-/// Turns a scene's names of bodies and points into indices and markers.
+/// Converts a scene's names of bodies and points into indices and markers.
 class Markers {
  public:
-  /// @param elements  of each body of the scene, nothing where it is rigid   @param model  gets the markers
+  /// @param elements  of each body of the scene, empty where it is rigid   @param model  receives the markers
   Markers(const Scene& scene, const std::vector<std::optional<MechanismBody>>& elements, Model& model);
 
-  /// By name; `ground` is not among them.
+  /// By name; without `ground`.
   const std::map<std::string, int>& bodies() const { return bodies_; }
   /// @throws SceneError  no such body
   int body(const PointRef&) const;
@@ -30,13 +30,13 @@ class Markers {
 
   /// @throws SceneError  no such point, or none with a direction
   Marker marker_at(const PointRef&, Holds) const;
-  /// Its index in System::markers; made when first asked for.
+  /// Its index in System::markers; created at the first call.
   int marker(const PointRef&, Holds = Holds::point);
-  /// Of axes that are the body's own where it is drawn, at this point: what carries a surface.
+  /// Marker at this point with the body's own axes as drawn: it carries a surface.
   int carrier(const PointRef&);
-  /// Where a point is as the body is drawn, body axes [m].
+  /// Position of a point in the drawn body, body axes [m].
   Eigen::Vector2d place(const PointRef&) const;
-  /// As its motion is recorded: of second order unless it is held at first order.
+  /// As its motion is recorded: second order unless it is held at first order.
   Marker recorded_at(const PointRef&) const;
 
   /// @throws SceneError  both are on one body

@@ -44,11 +44,11 @@ Profile block(double length, double height, double angle, double round) {
   return profile_along({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, true, round);
 }
 
-/// A sector of a ring: its wall from R to R + w, radial faces at its ends, edges of radius r. The surface goes on with the ring at its
-/// left: clockwise along the wall inside, out along the first end, back outside, in along the other.
+/// A sector of a ring: its wall from R to R + w, radial faces at its ends, edges of radius r. The surface runs with the ring to its left:
+/// clockwise along the inner wall, outwards along the first end, back along the outer wall, inwards along the other end.
 Profile ring(double R, const SceneArc& arc) {
   const double w = arc.wall, r = arc.edge, quarter = std::numbers::pi / 4, pi = std::numbers::pi;
-  const double inside = std::asin(r / (R + r)), outside = std::asin(r / (R + w - r));  // by which the edges shorten the arcs
+  const double inside = std::asin(r / (R + r)), outside = std::asin(r / (R + w - r));  // angles by which the edges shorten the arcs
   const double from = (R + r) * std::cos(inside), to = (R + w - r) * std::cos(outside);
   const auto at = [](double radius, double angle) { return Vector2d(radius * std::cos(angle), radius * std::sin(angle)); };
   Profile out;

@@ -8,16 +8,16 @@
 
 namespace pintle {
 
-/// A joint with play as two profiles in the axes of its points, a's first: the guide and the block in it, the slot and its pin,
-/// the circles between which the end of a rod is, and that end.
-/// @throws SceneError  lengths that cannot be
+/// A joint with clearance as two profiles in the axes of its points, a's first: the guide and its block, the slot and its pin, or the
+/// circles between which the end of a rod stays, and that end.
+/// @throws SceneError  invalid lengths
 std::array<Profile, 2> profiles_of(const Scene&, const SceneJoint&);
 
-/// The contact that these two make.
+/// The contact between these two.
 SceneContact contact_with_play(const SceneJoint&);
 
 /// An open bearing in the axes of its point, its journal first. @pre is_open
-/// @throws SceneError  an arc, a wall or edges that cannot be
+/// @throws SceneError  invalid arc, wall or edges
 std::array<Profile, 2> open_bearing(const Scene&, const SceneJoint&);
 
 }  // namespace pintle

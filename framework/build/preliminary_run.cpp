@@ -22,12 +22,12 @@ using Eigen::Index;
 using Eigen::Vector2d;
 
 constexpr long most_steps = 20'000;
-constexpr double most_numbers = 1e7;  ///< kept of all bodies together: 80 MB
+constexpr double most_numbers = 1e7;  ///< stored for all bodies together: 80 MB
 constexpr int turns_seen = 10;        ///< of the slowest motor
 constexpr int steps_a_turn = 64;      ///< at least, of the fastest driver
 constexpr double least_tolerance = 1e-6;
 
-/// The body as a rigid one with the same points, so that all names keep their meaning.
+/// A rigid body with the same points, so that all names remain valid.
 SceneBody rigid_twin(const ElasticBody& e) {
   SceneBody body = *e.scene;
   const RigidInertia inertia = rigid_inertia(e.model, e.M);
@@ -52,7 +52,7 @@ Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elem
   return twin;
 }
 
-/// One column of every history at the present state.
+/// Stores one column of every history at the present state.
 void keep(const System& system, const std::vector<Attachment>& attachments, const State& state, const Equations& eq, Index column,
           std::vector<LoadHistory>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -62,7 +62,7 @@ void keep(const System& system, const std::vector<Attachment>& attachments, cons
   }
 }
 
-/// Whether nothing but even motors and unchanging forces drives the scene.
+/// Whether the scene is driven only by uniform motors and constant forces.
 bool is_even(const Scene& scene, const std::vector<Imposed>& imposed) {
   const auto turns = [](const Imposed& i) { return i.even && i.turns; };
   bool even = !imposed.empty() && std::all_of(imposed.begin(), imposed.end(), turns);

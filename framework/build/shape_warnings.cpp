@@ -19,7 +19,7 @@ namespace {
 
 std::string percent(double part) { return number_text(std::round(1000 * part) / 10) + " %"; }
 
-/// ∂f/∂δ at the depth that a hundredth of the motion's speed reaches, or at a hundredth of its fine length where nothing moves yet [N/m].
+/// ∂f/∂δ at the depth reached at a hundredth of the motion's speed, or at a hundredth of its fine length if nothing moves yet [N/m].
 double stiffness_of_blow(const System& system, const ContactPair& pair, double motion) {
   double mobility = 0;  // 1/m of the two bodies there
   for (const int marker : {pair.a, pair.b}) {
@@ -36,7 +36,7 @@ double stiffness_of_blow(const System& system, const ContactPair& pair, double m
 
 std::vector<std::string> contact_warnings(const Scene& scene, const System& system, const BuiltOrder& order,
                                           const std::vector<std::optional<MechanismBody>>& bodies) {
-  constexpr double matters = 0.1;  // compliance left out beside the contact's own
+  constexpr double matters = 0.1;  // missing compliance, relative to that of the contact
   std::vector<std::string> out;
   if (system.contacts.empty()) return out;
   std::vector<const ElasticBody*> flexible;
@@ -72,7 +72,7 @@ std::string stiff_parts_warning(const MechanismBody& b) {
 std::vector<std::string> stress_warnings(const System& system, const std::vector<RecordedStress>& stresses,
                                          const std::vector<std::optional<MechanismBody>>& bodies) {
   std::vector<std::string> out;
-  constexpr double rounding = 1e-8;  // of the stress of bending at the radius of gyration
+  constexpr double rounding = 1e-8;  // relative to the bending stress at the radius of gyration
   std::set<int> told;
   for (const RecordedStress& s : stresses) {
     if (!s.probe.beam || !told.insert(s.body).second) continue;

@@ -29,7 +29,7 @@ int SignalMaker::begin(const Law& law, const Place& place) {
   return static_cast<int>(laws.size()) - 1;
 }
 
-// Said once of each table.
+// Warns once for each table.
 void SignalMaker::warn_of_swing(const Law& law, const Place& place) {
   const auto* table = law.of_signals.target<SignalTable>();
   const auto* spline = table ? std::get_if<Spline>(&table->table) : nullptr;
@@ -110,7 +110,7 @@ MotionSignal SignalMaker::made(const SignalWord& word) {
   }
 }
 
-// The body's own axes at its origin, as trajectory.csv has them: bending does not move them.
+// The body's own axes at its origin, as in trajectory.csv: bending does not move them.
 int SignalMaker::frame(const PointRef& of) {
   const int body = markers_.body(of);
   const Body& b = model_.system.bodies[static_cast<std::size_t>(body)];

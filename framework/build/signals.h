@@ -11,16 +11,16 @@
 
 namespace pintle {
 
-/// Makes signals and laws of a system from those of the scene. Signals come with markers of their own: a law is `begun` where the
-/// scene has it and `finished` when the size of the mechanism is known, which signals are not to change.
+/// Creates signals and laws of a system from those of the scene. Signals have their own markers, and must not affect the size of the
+/// mechanism: a law is `begun` where the scene defines it and `finished` when that size is known.
 class SignalMaker {
  public:
   SignalMaker(const Scene& scene, Markers& markers, Model& model) : scene_(scene), markers_(markers), model_(model) {}
 
-  /// Its index in System::laws; of a law of time too.
+  /// Its index in System::laws; also for a law of time.
   int begin(const Law&, const Place&);
   void finish();
-  /// A law that need not be among the system's: of an output, of an event. After finish. @throws SceneError  an unknown signal
+  /// A law that need not belong to the system: of an output, of an event. After finish. @throws SceneError  an unknown signal
   SignalLaw law(const Law&, const Place&);
   int signal(const std::string& name, const Place&);  ///< its index in System::signals
   const std::map<std::string, SignalWord, std::less<>>& words();
@@ -45,7 +45,7 @@ class SignalMaker {
   std::vector<Begun> begun_;
 };
 
-/// An output, whose inputs are signals, columns of the trajectory and outputs before it.
+/// An output whose inputs are signals, columns of the trajectory and earlier outputs.
 WrittenOutput written_output(const Scene&, const SceneOutput&, const Model&, SignalMaker&);
 
 }  // namespace pintle

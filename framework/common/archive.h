@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// Changes with the names of members, their order and the sizes of numbers among them.
+/// Checksum of the names of members, their order and the sizes of numbers among them.
 template <class... T>
 constexpr std::uint32_t layout(std::string_view names) {
   std::uint32_t h = 2166136261u;  // FNV-1a
@@ -26,8 +26,8 @@ constexpr std::uint32_t layout(std::string_view names) {
   return h;
 }
 
-/// Writes numbers as the bits they are, for the same program on the same machine to read. A class takes
-/// part by `template <class A> void archive(A& a)`, which names its members once for both directions.
+/// Writes numbers as raw bits, to be read by the same program on the same machine. A class supports this with `template <class A> void
+/// archive(A& a)`, which names its members once for both directions.
 class Writer {
  public:
   static constexpr bool loading = false;
@@ -51,7 +51,7 @@ class Writer {
     else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
       stream.write(reinterpret_cast<const char*>(&x), sizeof x);
     else
-      const_cast<T&>(x).archive(*this);  // which changes nothing when it writes
+      const_cast<T&>(x).archive(*this);  // does not change x when writing
   }
   template <class T>
   void put(const std::vector<T>& v) {
@@ -68,7 +68,8 @@ class Writer {
   }
 };
 
-/// Reads what Writer wrote, from a stream that is whole in memory (std::istringstream). `good()` is false once something is missing, is not what it must be, or is of another layout.
+/// Reads what Writer wrote, from a stream that is completely in memory (std::istringstream). `good()` is false once something is missing,
+/// invalid, or of another layout.
 class Reader {
  public:
   static constexpr bool loading = true;
@@ -90,7 +91,7 @@ class Reader {
   std::istream& stream;
 
  private:
-  /// What is left bounds what can be there.
+  /// The size is limited by what is left in the stream.
   template <class T>
   bool sized(T& size, std::size_t each) {
     size = 0;

@@ -9,8 +9,8 @@
 
 #include "eigen_layout.h"
 
-/// What takes longest to compile of Eigen's decompositions of matrices of any size: it is compiled once, in dense.cpp, instead of
-/// wherever it is used.
+/// The parts of Eigen's decompositions, for matrices of any size, that take longest to compile: they are compiled once, in dense.cpp,
+/// instead of wherever they are used.
 namespace Eigen {
 
 extern template void ColPivHouseholderQR<MatrixXd>::computeInPlace();

@@ -43,7 +43,7 @@ const char* remedy(int error) {
   }
 }
 
-/// @returns 0 or errno; `done` is what was written in any case
+/// @returns 0 or errno; `done` is the number of bytes written in any case
 int write_all(int file, std::string_view text, std::size_t& done) {
   done = 0;
   while (done < text.size()) {
@@ -56,10 +56,10 @@ int write_all(int file, std::string_view text, std::size_t& done) {
   return 0;
 }
 
-/// A file that was closed by a signal is closed. @returns 0 or errno
+/// A close that was interrupted by a signal counts as done. @returns 0 or errno
 int close_file(int file) { return ::close(file) == 0 || errno == EINTR ? 0 : errno; }
 
-/// File systems that cannot sync need no complaint. @returns 0 or errno
+/// File systems that cannot sync cause no error. @returns 0 or errno
 int sync_file(int file) {
   while (::fsync(file) != 0) {
     if (errno == EINTR) continue;
@@ -82,8 +82,8 @@ std::string random_letters() {
   return out;
 }
 
-constexpr int tries = 100;                          // of a random name
-constexpr std::size_t many = std::size_t{1} << 18;  // bytes to be written at once
+constexpr int tries = 100;                          // attempts at a random name
+constexpr std::size_t many = std::size_t{1} << 18;  // bytes written at a time
 
 void write_file(const fs::path& path, const std::string& text, bool synced) {
   fs::path part;
@@ -123,7 +123,7 @@ FileWriter::~FileWriter() {
   if (file_ < 0) return;
   try {
     flush();
-  } catch (...) {  // whole records stay
+  } catch (...) {  // complete records are kept
   }
   ::close(file_);
 }
@@ -131,7 +131,7 @@ FileWriter::~FileWriter() {
 void FileWriter::append(std::string_view record) {
   constexpr auto long_ago = std::chrono::seconds(1);
   if (failed_) return;
-  buffer_.reserve(buffer_.size() + record.size());  // so that a record is there whole or not at all
+  buffer_.reserve(buffer_.size() + record.size());  // so that a record is added completely or not at all
   ends_.push_back(buffer_.size() + record.size());
   buffer_ += record;
   if (buffer_.size() >= many || std::chrono::steady_clock::now() - flushed_ > long_ago) flush();
@@ -236,7 +236,7 @@ void sync_tree(const fs::path& folder) {
     }
   };
 #if defined(__linux__)
-  if (tree.files.size() > 2) {  // one wait for the disk instead of one for each
+  if (tree.files.size() > 2) {  // one wait for the disk instead of one per file
     const int whole = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (whole < 0) throw FileError(folder, errno);
     const int failed = ::syncfs(whole) == 0 ? 0 : errno;

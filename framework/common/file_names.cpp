@@ -6,7 +6,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::size_t longest = 120;  // of 255 that file systems take, with room for numbers and endings
+constexpr std::size_t longest = 120;  // of the 255 that file systems allow, leaving room for numbers and endings
 
 bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
 

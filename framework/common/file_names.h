@@ -5,13 +5,13 @@
 
 namespace pintle {
 
-/// Names of files for things whose names may hold anything. What is no ASCII letter, digit, `.`, `-` or `_` becomes `_`, long
-/// names are cut, and a number follows where two would be the same but for case.
+/// File names for elements with arbitrary names. Anything except ASCII letters, digits, `.`, `-` and `_` becomes `_`, long names are
+/// shortened, and a number is added where two would be equal apart from case.
 class FileNames {
  public:
-  /// @param taken  names that others have
+  /// @param taken  names already in use
   explicit FileNames(std::vector<std::string> taken = {});
-  /// @param otherwise  for a name of nothing
+  /// @param otherwise  used for an empty name
   std::string add(const std::string& name, const std::string& otherwise);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// FNV-1a of 64 bits: tells texts apart that differ by accident, not by intent. `onto` chains several.
+/// 64-bit FNV-1a: distinguishes texts that differ by accident, not by intent. `onto` chains several.
 constexpr std::uint64_t fingerprint(std::string_view text, std::uint64_t onto = 0xcbf29ce484222325u) {
   for (const char c : text) onto = (onto ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return onto;

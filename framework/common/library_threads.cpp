@@ -6,7 +6,7 @@ namespace pintle {
 
 namespace {
 
-/// Sought at run time: which BLAS it is, and whether CHOLMOD was built with OpenMP, is the system's choice.
+/// Looked up at run time: the system determines which BLAS is used, and whether CHOLMOD was built with OpenMP.
 template <class Function>
 Function* sought(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
@@ -19,10 +19,10 @@ void hold_library_threads() {
     if (auto* set = sought<void(int)>("openblas_set_num_threads")) set(1);
     return true;
   }();
-  thread_local const bool openmp = [] {  // settings of each thread
+  thread_local const bool openmp = [] {  // settings per thread
     if (auto* set = sought<void(int)>("omp_set_num_threads")) set(1);
     if (auto* set = sought<void(int)>("omp_set_max_active_levels"))
-      set(0);  // CHOLMOD asks for four threads whatever their number was set to
+      set(0);  // CHOLMOD requests four threads, whatever their number was set to
     return true;
   }();
   static_cast<void>(blas), static_cast<void>(openmp);

@@ -4,11 +4,11 @@
 
 namespace pintle {
 
-/// Holds BLAS, and OpenMP in this thread, to one thread each, in the whole process: what they split among threads is summed in
-/// another order, so that results would follow the number of cores; and it gets in the way of other cases that run at once.
+/// Limits BLAS, in the whole process, and OpenMP, in this thread, to one thread each: otherwise sums are formed in another order, so that
+/// results would depend on the number of cores, and other cases running at the same time would be slowed down.
 void hold_library_threads();
 
-/// Which BLAS kernels round, and by how many threads: "Haswell, 1 thread". "unknown" of one that does not say.
+/// The BLAS kernels in use and their number of threads: "Haswell, 1 thread". "unknown" if BLAS does not report it.
 std::string library_text();
 
 }  // namespace pintle

@@ -11,16 +11,16 @@
 
 namespace pintle {
 
-/// Results that are expensive to make, kept for those who ask for the same again, in any thread. What was asked for least
-/// recently goes when there is too much; who holds a result holds it on.
+/// Cache of expensive results, for any thread. The least recently used results are dropped when there is too much; a holder of a result
+/// keeps it.
 template <class T>
 class MadeOnce {
  public:
   MadeOnce(std::size_t most_bytes, std::size_t (*bytes_of)(const T&)) : most_bytes_(most_bytes), bytes_of_(bytes_of) {}
   MadeOnce(const MadeOnce&) = delete;
 
-  /// What is kept under `key`, or else what `make()` returns. Who asks while another makes it waits for that. What
-  /// throws is not kept; whoever waited for it makes his own, and gets an error of his own.
+  /// The result stored under `key`, or otherwise what `make()` returns. A thread that requests a result being made by another waits for it.
+  /// A failure is not stored; each waiting thread then makes its own result, and gets its own error.
   template <class Make>
   std::shared_ptr<const T> get(const std::string& key, Make make) {
     std::promise<Result> promise;
@@ -41,7 +41,7 @@ class MadeOnce {
     return result;
   }
 
-  std::size_t bytes() const {  ///< of all that is kept
+  std::size_t bytes() const {  ///< of all stored results
     const std::lock_guard lock(mutex_);
     return bytes_;
   }
@@ -54,7 +54,7 @@ class MadeOnce {
     std::list<const std::string*>::iterator turn;
   };
 
-  /// The result to wait for; none if there is no such entry: then there is one, which `promise` must fill.
+  /// The result to wait for; none if there is no such entry: then one is created, which `promise` must fill.
   std::shared_future<Result> find_or_begin(const std::string& key, std::promise<Result>& promise) {
     const std::lock_guard lock(mutex_);
     const auto [found, is_new] = entries_.try_emplace(key);
@@ -91,9 +91,9 @@ class MadeOnce {
 
   const std::size_t most_bytes_;
   std::size_t (*const bytes_of_)(const T&);
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< for the following
   std::map<std::string, Entry> entries_;
-  std::list<const std::string*> turns_;  ///< keys, the one asked for last in front
+  std::list<const std::string*> turns_;  ///< keys, the most recently used one first
   std::size_t bytes_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// Seconds that this thread has computed, waiting left out: what something takes where nothing else keeps the machine busy.
+/// Processor time of this thread [s], without waiting: the duration of a computation on an otherwise idle machine.
 inline double processor_time() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-/// SHA-256 [FIPS 180-4]: what has the same sum is the same text.
+/// SHA-256 [FIPS 180-4]: equal checksums mean equal texts.
 class Sha256 {
  public:
   void add(std::string_view);

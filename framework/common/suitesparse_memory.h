@@ -2,13 +2,13 @@
 
 namespace pintle {
 
-/// Where memory does not suffice for one ordering of unknowns, SuiteSparse takes another without a word, and results then differ in
-/// their last digits. From its construction on this remembers, for its thread, whether that may have been.
+/// If memory is insufficient for one ordering of unknowns, SuiteSparse silently uses another, and results then differ in their last digits.
+/// This class detects, from its construction on and for its thread, whether that may have happened.
 class SuiteSparseMemory {
  public:
   SuiteSparseMemory();
   bool lacked() const;
-  /// @throws std::bad_alloc  SuiteSparse lacked memory since
+  /// @throws std::bad_alloc  SuiteSparse has run out of memory since
   void require() const;
 };
 

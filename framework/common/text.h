@@ -4,13 +4,13 @@
 
 namespace pintle {
 
-/// A field of a CSV file, in quotes where it must be.
+/// A field of a CSV file, in quotes if necessary.
 std::string csv_field(const std::string&);
 /// A number for messages, with this many significant digits: "0.1".
 std::string number_text(double, int digits = 4);
 /// In double quotes.
 std::string quoted(const std::string&);
-/// The shortest decimal that reads back as x; nothing for NaN, which is an empty field.
+/// The shortest decimal that reads back as x; an empty field for NaN.
 void append_number(std::string& out, double x);
 
 }  // namespace pintle

@@ -16,9 +16,9 @@
 
 namespace pintle {
 
-/// Writes values one after the other so that no two sequences of them look alike; all that are no number are the same one.
-/// `Self` has bytes(std::string_view) and `add` for its structures, which it takes apart by structured bindings: with a member
-/// more they no longer compile, and whoever adds one decides there whether it counts.
+/// Writes values one after another such that no two sequences of values give the same bytes; all NaNs are equal. `Self` has
+/// bytes(std::string_view) and `add` for its structures, which it decomposes by structured bindings: with an additional member they no
+/// longer compile, so that whoever adds one decides there whether it counts.
 template <class Self>
 class ValueWriter {
  public:

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// A text taken word by word from its front; case does not count.
+/// A text read word by word from its beginning, ignoring case.
 namespace pintle {
 
 using Names = std::vector<std::string>;
@@ -48,7 +48,7 @@ class Words {
       if (take(words)) return words;
     return "";
   }
-  /// The longest of the names that stands here, in its own spelling or but for case; an article before it is passed over.
+  /// The longest of the names at this place, in its own spelling or apart from case; an article before it is skipped.
   std::string take_name(const Names& names) {
     const std::size_t before = at_;
     for (const char* article : {"", "the", "a", "an"}) {

@@ -8,11 +8,11 @@
 
 namespace pintle {
 
-/// The greater of two errors, and not a number if either is not: std::max drops a NaN or keeps it by the order of
-/// its operands, so that numbers lost would pass as no error.
+/// The larger of two errors, and NaN if either is NaN: std::max drops or keeps a NaN depending on the order of its operands, so that
+/// invalid numbers would count as no error.
 inline double worse(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
-/// Largest magnitude; not a number if any component is not.
+/// Largest magnitude; NaN if any component is NaN.
 template <class Derived>
 double largest(const Eigen::MatrixBase<Derived>& v) {
   return v.size() == 0 ? 0 : v.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>();

@@ -31,14 +31,14 @@ using Eigen::VectorXd;
 using Index = Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Rough pose, angles and spins that the scene pins in place (their W is 0), and its pins of origins.
+/// Rough pose, the coordinates and speeds that the scene fixes (their W is 0), and the fixed origins.
 struct Rough {
   VectorXd y, W_pose, W_speed;
   std::vector<Pin> places, rates;
-  std::vector<int> bent;  ///< bodies whose bending the scene says
+  std::vector<int> bent;  ///< bodies whose deformation the scene prescribes
 };
 
-using Bent = std::vector<std::pair<int, VectorXd>>;  ///< bodies that start bent, and their modal coordinates
+using Bent = std::vector<std::pair<int, VectorXd>>;  ///< bodies that start deformed, and their modal coordinates
 
 Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   Rough r;
@@ -50,7 +50,7 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   }
   r.W_pose.resize(system.n());
   r.W_speed.resize(system.n());
-  r.W_pose.tail(system.n() - system.n_rigid()).setZero();  // undeformed if that closes
+  r.W_pose.tail(system.n() - system.n_rigid()).setZero();  // undeformed if the joints can be closed that way
   r.W_speed.tail(system.n() - system.n_rigid()).setZero();
   std::map<std::string, const StartBody*> starts;
   for (const StartBody& s : scene.start_bodies) starts[s.body] = &s;
@@ -88,18 +88,18 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
-constexpr double nearly_right = 1e-6;  // no pose and no speed is so by chance
+constexpr double nearly_right = 1e-6;  // not reached by chance in any configuration or speed
 const char* const must_fit =
     "redundant joints must agree with each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or "
     "remove a joint";
 
-// What of C a run takes for met (onto_constraints); here no more may be left.
+// The violation of C that a run accepts (onto_constraints); no more may be left here.
 double constraints_met(const System& system, const VectorXd& y) {
   constexpr double met = 1e-11, still_good = 1e-8;
   return std::max(met, std::min(8 * angle_rounding(system, y), still_good));
 }
 
-// Levenberg–Marquardt on C = 0, from the rough pose.
+// Levenberg–Marquardt on C = 0, starting from the rough pose.
 int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
   constexpr double closed = 1e-12;
   closure.pin(r.places);
@@ -115,7 +115,7 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
     trial.head(system.n()) += step;
     const VectorXd C_trial = closure.violation(trial);
     if (C_trial.norm() < C.norm()) {
-      // Towards a singular pose Newton's steps are half of what is left: so are residuals a quarter.
+      // Near a singular configuration Newton's steps are half of the remaining distance, so residuals fall to a quarter.
       const VectorXd further = r.y.head(system.n()) + 2 * step;
       r.y = trial;
       if (const double left = C_trial.norm() / C.norm(); left > 0.2 && left < 0.3 && reach <= 0.5) {
@@ -152,7 +152,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   s += least_step(J, r.W_speed, -D, 1e-13, 8);
   VectorXd left = closure.drift(r.y);
   const double scale = std::max({D.lpNorm<Eigen::Infinity>(), s.lpNorm<Eigen::Infinity>(), 1e-12});
-  for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // masses so unlike that the metric hides some rows
+  for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // masses so different that the metric hides some rows
     const VectorXd W = r.W_speed.cwiseMax(1e-6 * r.W_speed.maxCoeff()).cwiseProduct((r.W_speed.array() > 0).cast<double>().matrix());
     const VectorXd before = s;
     s += least_step(J, W, -left, 1e-13, 8);
@@ -174,8 +174,8 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   return 1;
 }
 
-// Flexible bodies start undeformed and move as rigid ones; only where that cannot close they bend, soft
-// shapes before stiff ones.
+// Flexible bodies start undeformed and move as rigid ones; only where the joints cannot be closed that way do they bend, soft shapes before
+// stiff ones.
 template <class Close>
 int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Close close) {
   if (system.n() == system.n_rigid()) return close(r);
@@ -196,7 +196,7 @@ int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Cl
   return close(r);
 }
 
-/// The driver that a dependence ends in; else the joint.
+/// The driver that a dependence ends with; otherwise the joint.
 const std::string& last_driver(const System& system, const std::vector<Redundancy>& redundant) {
   for (const Redundancy& r : redundant)
     if (is_driver(system.joints[at(r.joint)])) return system.joint_names[at(r.joint)];
@@ -227,7 +227,7 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
 
 namespace {
 
-// With as many integrals, so that their states are of one length.
+// With the same number of integrals, so that the states have equal length.
 System without_play(System system) {
   system.joints.insert(system.joints.end(), system.loose.begin(), system.loose.end());
   system.joint_names.insert(system.joint_names.end(), system.loose_names.begin(), system.loose_names.end());
@@ -235,7 +235,7 @@ System without_play(System system) {
   return system;
 }
 
-// A step of the assembly, first with joints that have play as they are without it; where the scene starts them otherwise, without them.
+// A step of the assembly: first with joints with clearance treated as ideal; where the scene starts them differently, without them.
 template <class Do>
 auto as_if_ideal(const Scene& scene, const System& system, const System& closed, const std::vector<Eigen::Vector2d>& drawn, Rough& r,
                  Do does) {
@@ -289,7 +289,7 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   return out;
 }
 
-/// The speeds that drivers ask for where the mechanism would rest without them.
+/// Adds the speeds that drivers impose on a mechanism that would otherwise be at rest.
 void start_at_rest(const Scene& scene, const Model& model, Assembly& out) {
   const Equilibrium rest = find_equilibrium(scene, model, out);
   if (!rest.found) throw AssemblyError(scene.file, {0, "start"}, "there is no equilibrium to start from: " + rest.reason);

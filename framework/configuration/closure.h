@@ -15,23 +15,23 @@
 
 namespace pintle {
 
-/// A coordinate of a body's origin, or its rate, that the scene gives.
+/// A coordinate of a body's origin, or its rate, given by the scene.
 struct Pin {
   int body, axis;
   double value;  ///< [m] or [m/s]
 };
 
-/// The rows to be closed at the start: the joints, two for each clearance joint, and what the scene
-/// pins of the origins of bodies: their places first, then, for the speeds, their rates. Of a massless link the
-/// scene's eccentricity gives the direction only, and its rate the part across.
+/// The rows to be closed at the start: the joints, two rows for each clearance joint, and the origins of bodies that the scene fixes: first
+/// their positions, then, for the speeds, their rates. For a massless link the scene's eccentricity gives only the direction, and its rate
+/// only the part across.
 class Closure {
   using VectorXd = Eigen::VectorXd;
   using Index = Eigen::Index;
   using Sparse = Eigen::SparseMatrix<double>;
 
  public:
-  /// @param pressed  unit vectors along which massless links stand that the scene gives no eccentricity
-  /// @param drawn    where journals are drawn in their bearings, for those that it gives none; empty: in the middle
+  /// @param pressed  unit vectors along massless links for which the scene gives no eccentricity
+  /// @param drawn    drawn positions of journals in their bearings, for those without an eccentricity; empty: in the middle
   Closure(const Scene& scene, const System& system, const std::vector<Eigen::Vector2d>& pressed,
           const std::vector<Eigen::Vector2d>& drawn = {})
       : system_(system), eq_(system), offset_(at(n_clearances(system))), drift_(offset_.size()) {
@@ -53,7 +53,7 @@ class Closure {
   void pin(std::vector<Pin> pins) { pins_ = std::move(pins); }
   Index rows() const { return first_pin() + static_cast<Index>(pins_.size()); }
 
-  /// C and, if asked, its Jacobian; lengths over the mechanism's length.
+  /// C and, if requested, its Jacobian; lengths relative to the mechanism's length.
   VectorXd violation(const VectorXd& y, Sparse* J = nullptr) {
     pose(system_, 0, y, eq_);
     VectorXd C(rows());
@@ -70,7 +70,7 @@ class Closure {
     return C;
   }
 
-  /// Ċ at speeds s, scaled alike.
+  /// Ċ at speeds s, scaled in the same way.
   VectorXd drift(const VectorXd& y) {
     pose(system_, 0, y, eq_);
     speed(system_, 0, y, eq_);
@@ -109,7 +109,7 @@ class Closure {
       if (row < system_.row_begin[k + 1]) return static_cast<int>(k);
     return -1;
   }
-  /// Joints whose rows, nearly or wholly, depend on each other together with this row.
+  /// Joints with rows that are exactly or nearly dependent together with this row.
   std::vector<std::string> opponents(Index row, const VectorXd& left) const {
     std::vector<std::string> names;
     bool found = false;
@@ -122,7 +122,7 @@ class Closure {
       found = true;
       break;
     }
-    for (Index other = 0; other < left.size() && !found; ++other)  // a best compromise spreads what is left over all that quarrel
+    for (Index other = 0; other < left.size() && !found; ++other)  // the best compromise spreads the residual over all conflicting rows
       if (std::abs(left[other]) > 0.1 * std::abs(left[row]) && owner(other) != owner(row)) names.push_back(owner(other));
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;

@@ -13,7 +13,7 @@ namespace pintle {
 
 namespace {
 
-// Whether the scene says where a body is, beyond what joints will make of it.
+// Whether the scene gives the position of a body, independently of the joints.
 bool is_drawn(const Scene& scene, const std::string& body) {
   if (body == "ground") return true;
   const auto found = std::ranges::find(scene.bodies, body, &SceneBody::name);

@@ -9,18 +9,18 @@
 #include "framework/configuration/redundancy.h"
 #include "framework/scene/scene.h"
 
-/// What the pose that a scene draws says of the start, and where the start does not follow it.
+/// What the pose drawn in a scene implies for the start, and where the start deviates from it.
 namespace pintle {
 
-/// Where journals lie in their bearings as the scene draws them, world axes [m]; in the middle where it does not, or not inside.
-/// @param y  the drawn pose   @param doubts  gets journals that are drawn outside their bearings
+/// Positions of journals in their bearings as drawn in the scene, world axes [m]; in the middle where it draws none, or not inside.
+/// @param y  the drawn pose   @param doubts  receives journals drawn outside their bearings
 std::vector<Eigen::Vector2d> drawn_journals(const Scene&, const System&, const Eigen::VectorXd& y, std::vector<std::string>& doubts);
 
-/// Bodies that closing the joints has taken far from where they are drawn, as into another branch.
+/// Reports bodies that closing the joints has moved far from where they are drawn, for example to another branch.
 void doubt_moves(const Scene&, const System&, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                  std::vector<std::string>& doubts);
 
-/// Drivers that move one freedom in the same way, in words; empty: there are none.
+/// Drivers that impose the same degree of freedom, in words; empty: none.
 std::string driven_twice(const System&, const Redundancy&);
 
 }  // namespace pintle

@@ -20,13 +20,13 @@ namespace {
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-/// Step by step from the start to the equilibrium, or to where it ends.
+/// Iterates from the start to the equilibrium, or to where the search ends.
 class Search {
  public:
   Search(Rest& rest, State start) : rest_(rest), state_(std::move(start)), start_(state_.y.head(rest.held.n())) {}
 
-  bool descend() { return go(true, 3000); }  ///< along the potential
-  bool flow() { return go(false, 6000); }    ///< where there is none, or it does not help
+  bool descend() { return go(true, 3000); }  ///< by minimising the potential energy
+  bool flow() { return go(false, 6000); }    ///< where there is no potential, or it does not help
   bool damped() const { return damped_; }
   int iterations() const { return iterations_; }
   bool runs_away() const { return runs_away_; }
@@ -50,7 +50,7 @@ class Search {
       if (residual <= balanced) return true;
       idle = residual < 0.5 * best ? 0 : idle + 1;
       if (residual < best) best = residual, calmest = state_;
-      if (best <= nearly && idle > 12) {  // rounding lets it fall no further
+      if (best <= nearly && idle > 12) {  // rounding prevents a further decrease
         state_ = calmest;
         rest_.project(state_, 1);
         return true;
@@ -69,10 +69,10 @@ class Search {
     return rest_.residual() <= nearly;
   }
 
-  /// σ with which the accelerations of rest move the mechanism by a tenth of its size.
+  /// σ for which the accelerations from rest move the mechanism by a tenth of its size.
   double gentle() const { return std::max(rest_.size(rest_.eq.a) / 0.1, 1e-12); }
 
-  // d of [K + σM, Cqᵀ; Cq, 0] [d; ·] = [forces out of balance; 0], shortened until it does what it should.
+  // Solves [K + σM, Cqᵀ; Cq, 0] [d; ·] = [forces out of balance; 0] for d, and shortens d until it succeeds.
   bool step(bool by_potential, double sigma) {
     const System& held = rest_.held;
     rest_.tangent.evaluate(held, state_, rest_.eq, VectorXd::Zero(held.n()), rest_.eq.lambda,
@@ -119,7 +119,7 @@ class Search {
   bool damped_ = false, runs_away_ = false;
 };
 
-// From the pose at t = 0 along the drivers to t, in steps small enough to stay on the branch.
+// Follows the drivers from the configuration at t = 0 to time t, in steps small enough to stay on the branch.
 bool lead(const System& system, double to, State& state, double& reached) {
   System held = system;
   Equations eq(system);
@@ -147,7 +147,7 @@ std::string names(const std::vector<std::string>& all) {
   return out;
 }
 
-/// Bodies that still accelerate, the most first.
+/// Bodies that still accelerate, in decreasing order.
 std::vector<std::string> restless(const System& system, const VectorXd& a) {
   std::vector<std::pair<double, std::string>> found;
   const VectorXd scaled = a.cwiseQuotient(system.scale);
@@ -197,7 +197,7 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
   }
 }
 
-// A saddle that the search arrived at is left along its unstable direction, towards lower energy.
+// If the search has reached a saddle, it is left along its unstable direction, towards lower energy.
 void search(Rest& rest, Search& way, Equilibrium& out) {
   const bool conservative = has_potential(rest.held);
   const bool rests_at_once = rest.residual() <= 1e-12;
@@ -235,7 +235,7 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
     if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
 }
 
-/// Where the own states do not follow from each pose. @returns false where they do
+/// Where the own states do not follow from each configuration. @returns false where they do
 bool rests_together(const Scene& scene, const Model& model, const RestingStates& states, double time, VectorXd own_start,
                     Equilibrium& out) {
   const System& system = model.system;
@@ -305,7 +305,7 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
                    ? "overdamped flow, then Newton's method (follower loads and loads controlled by signals have no potential)"
                : way.damped() ? "Newton's method, damped towards the overdamped flow"
                               : "Newton's method";
-  constexpr double told = 1e-6;  // looked at again: next to a singular pose the smallest change of pose upsets the joints' forces
+  constexpr double told = 1e-6;  // checked again: near a singular configuration tiny displacements change the forces strongly
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;
   if (was_found && !out.found)

@@ -29,7 +29,7 @@ System opened(const System& system) {
   return out;
 }
 
-/// Clearances closed as ideal pins, the last joints of all; profiles do not meet.
+/// Clearances replaced by ideal pins, added after all other joints; profiles have no contact.
 System pinned(const System& open) {
   System out = open;
   for (std::size_t c = 0; c < at(n_clearances(open)); ++c) {
@@ -53,14 +53,14 @@ State state_of(const System& system, const VectorXd& y) {
   return state;
 }
 
-/// Of each journal on its bearing, by the multipliers of the pins.
+/// Forces of each journal on its bearing, from the multipliers of the pins.
 std::vector<Vector2d> pressing(const System& pins, const Equations& eq, std::size_t count) {
   std::vector<Vector2d> out;
   for (std::size_t c = 0; c < count; ++c) out.emplace_back(eq.lambda.segment<2>(pins.row_begin[pins.joints.size() - count + c]));
   return out;
 }
 
-/// The same in a state; zeros where the pose is singular or what is left is rounding.
+/// The same in a state; zeros where the configuration is singular or the forces are rounding.
 std::vector<Vector2d> pressing_at(const System& open, const VectorXd& y) {
   constexpr double rounding = 1e-12;
   const System pins = pinned(open);
@@ -75,7 +75,7 @@ std::vector<Vector2d> pressing_at(const System& open, const VectorXd& y) {
   return out;
 }
 
-/// Root mean square over a run with ideal joints; over a part of it where that takes many steps.
+/// Root mean square over a run with ideal joints; over a part of the run if it takes many steps.
 std::vector<double> mean_forces(const Scene& scene, const System& open, const VectorXd& y) {
   constexpr long most_steps = 2000;
   const System pins = pinned(open);
@@ -101,14 +101,14 @@ std::vector<double> mean_forces(const Scene& scene, const System& open, const Ve
   return sum;
 }
 
-/// Acceleration of a marker by the bodies' accelerations alone.
+/// Acceleration of a marker due to the bodies' accelerations alone.
 Vector2d moved(const System& system, const Equations& eq, int marker) {
   Vector2d out = Vector2d::Zero();
   visit_motion(system, eq, marker, [&](int column, const Eigen::Vector3d& dp) { out += eq.a[column] * dp.head<2>(); });
   return out;
 }
 
-/// That a pair of forces along n on journal and bearing meets, in the pose of y at rest.
+/// Effective mass for a pair of forces along n on journal and bearing, in the configuration y at rest.
 double mass_against(const System& open, const VectorXd& y, const ContactPair& pair, const Vector2d& n) {
   System probe = open;
   probe.gravity.setZero();
@@ -121,7 +121,7 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
     probe.forces.emplace_back(PointForce{marker, marker, law(f.x()), law(f.y())});
   };
   double apart[] = {0, 0};
-  for (const double size : {0.0, 1.0}) {  // what drivers do is in both
+  for (const double size : {0.0, 1.0}) {  // the effect of drivers is in both
     probe.forces.clear();
     push(pair.a, size * n);
     push(pair.b, -size * n);

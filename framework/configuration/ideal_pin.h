@@ -5,21 +5,21 @@
 #include "framework/dynamics/model/system.h"
 #include "framework/scene/scene.h"
 
-/// What a clearance joint would carry if it were ideal: by this a massless link is laid at the start, and a spring and
-/// damper are matched to a contact. Theory: docs/theory/contact.md.
+/// The load that a clearance joint would carry if it were ideal: it determines the initial direction of a massless link, and the spring and
+/// damper equivalent to a contact. Theory: docs/theory/contact.md.
 namespace pintle {
 
-/// Where each journal would press on its bearing at the start, unit vectors, world axes; where it would not, gravity's
-/// direction, else x. Zeros where the system has no massless link.
+/// Direction in which each journal would press on its bearing at the start, unit vectors, world axes; if there is no force, gravity's
+/// direction, otherwise x. Zeros where the system has no massless link.
 /// @throws AssemblyError  as assemble
 std::vector<Eigen::Vector2d> pressed_directions(const Scene&, const System&);
 
-/// Of one clearance joint.
+/// Data of one clearance joint.
 struct IdealPin {
-  double force = 0;  ///< that the ideal joint carries: root mean square over a short run, without `run` at the start [N]
-  double mass = 0;   ///< that the bodies, held by the other joints, set against a push along `force` at the start [kg]
+  double force = 0;  ///< force in the ideal joint: root mean square over a short run, without `run` at the start [N]
+  double mass = 0;   ///< effective mass of the bodies, held by the other joints, against a push along `force` at the start [kg]
 };
-/// One a clearance joint; none of them held where it is not ideal.
+/// One per clearance joint, with none of them held where it is not ideal.
 /// @throws AssemblyError  as assemble
 std::vector<IdealPin> ideal_pins(const Scene&, const System&);
 

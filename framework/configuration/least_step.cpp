@@ -17,7 +17,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 void factor(Eigen::CholmodDecomposition<Sparse>& solver, const Sparse& S, const SuiteSparseMemory& memory) {
   solver.analyzePattern(S);
-  memory.require();  // Eigen's factorize takes the analysis for granted
+  memory.require();  // Eigen's factorize assumes that the analysis succeeded
   solver.factorize(S);
   memory.require();
 }
@@ -36,7 +36,7 @@ VectorXd least_step(const Sparse& J, const VectorXd& W, const VectorXd& r, doubl
   Eigen::CholmodDecomposition<Sparse> solver;
   solver.cholmod().print = 0;
   factor(solver, S, memory);
-  for (int i = 0; i < 10 && solver.info() != Eigen::Success; ++i) {  // rounding has eaten the shift
+  for (int i = 0; i < 10 && solver.info() != Eigen::Success; ++i) {  // the shift was lost in rounding
     S += 99 * shift * I;
     shift *= 100;
     factor(solver, S, memory);

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// What joins bodies, and nothing else.
+/// Only the joints of the system, without forces.
 System joints_alone(const System& system) {
   System out = system;
   out.joints.clear(), out.joint_names.clear();
@@ -52,7 +52,7 @@ void MovedByHand::stand(const VectorXd& q) {
   rows_.factor(system_, eq_);
 }
 
-/// Newton's method on C = 0, by steps of least norm.
+/// Newton's method on C = 0, with steps of least norm.
 bool MovedByHand::close(VectorXd& q) {
   constexpr double closed = 1e-11;
   double before = std::numeric_limits<double>::infinity();
@@ -68,12 +68,12 @@ bool MovedByHand::close(VectorXd& q) {
   return false;
 }
 
-/// What of a motion the joints let through.
+/// The part of a motion that the joints allow.
 VectorXd MovedByHand::allowed(const VectorXd& motion) const {
   return system_.n_rows() == 0 ? motion : VectorXd(motion - rows_.solve(system_, rows_.times(system_, motion)));
 }
 
-// Levenberg–Marquardt for the place of the point over the motions that the joints allow: G = P S² Jᵀ, S the scale of coordinates.
+// Levenberg–Marquardt for the position of the point over the motions that the joints allow: G = P S² Jᵀ, S being the scale of coordinates.
 bool MovedByHand::pull(int body, const Vector2d& point, const Vector2d& to) {
   const Eigen::Index at = 3 * static_cast<Eigen::Index>(body);
   const VectorXd metric = system_.scale.cwiseAbs2();
@@ -94,7 +94,7 @@ bool MovedByHand::pull(int body, const Vector2d& point, const Vector2d& to) {
     const Eigen::Matrix2d M = J * G.middleRows<3>(at);
     const double size = metric[at] + metric[at + 1];
     VectorXd step = G * (M + damping * size * Eigen::Matrix2d::Identity()).inverse() * d;
-    constexpr double longest = 0.2;  // of the mechanism's length, or radians
+    constexpr double longest = 0.2;  // relative to the mechanism's length, or radians
     step *= std::min(1.0, longest / std::max(step.cwiseQuotient(system_.scale).lpNorm<Eigen::Infinity>(), 1e-300));
     VectorXd q = q_ + step;
     if (close(q) && missing(q).norm() < d.norm()) {
@@ -114,16 +114,16 @@ int MovedByHand::mobility() const { return system_.n() - row_space(system_, eq_)
 
 MatrixXd MovedByHand::freedoms(int most) const {
   const Eigen::Index n = system_.n(), wanted = std::min<Eigen::Index>(most, mobility());
-  MatrixXd basis(n, 0), out(n, 0);  // the first scaled and orthogonal, the second as it is told
+  MatrixXd basis(n, 0), out(n, 0);  // the first scaled and orthogonal, the second as returned
   for (int turn = 0; turn < 2 && out.cols() < wanted; ++turn)
     for (Eigen::Index k = 0; k < system_.n_rigid() && out.cols() < wanted; ++k) {
-      if ((k % 3 == 2) != (turn == 0)) continue;  // angles are what one drags most
+      if ((k % 3 == 2) != (turn == 0)) continue;  // angles are what one usually drags
       VectorXd unit = VectorXd::Zero(n);
       unit[k] = system_.scale[k];
       VectorXd v = allowed(unit).cwiseQuotient(system_.scale);
       const double all = v.norm();
       v -= basis * (basis.transpose() * v);
-      constexpr double worth = 1e-3;  // of a motion is new
+      constexpr double worth = 1e-3;  // share of a motion that must be new
       if (all < worth || v.norm() < worth) continue;
       basis.conservativeResize(n, basis.cols() + 1), out.conservativeResize(n, out.cols() + 1);
       basis.rightCols(1) = v.normalized();

@@ -4,21 +4,20 @@
 
 namespace pintle {
 
-/// A mechanism that is moved by its joints alone, as by hand: drivers let go, joints with play closed, no forces.
+/// A mechanism moved by hand: only its joints act, drivers are released, joints with clearance closed, no forces.
 class MovedByHand {
  public:
-  /// @param y  coordinates that close the joints, or nearly
+  /// @param y  coordinates that close the joints, at least nearly
   MovedByHand(const System&, const Eigen::VectorXd& y);
 
-  /// Moves a point of a body towards a place, as near as the joints let it come by small steps: no other branch is met by accident.
+  /// Moves a point of a body towards a position, as near as the joints allow, in small steps so as not to change branch by accident.
   /// @param point  from the mass centre, body axes [m]   @returns false: the joints did not close, and nothing has moved
   bool pull(int body, const Eigen::Vector2d& point, const Eigen::Vector2d& to);
 
   const Eigen::VectorXd& coordinates() const { return q_; }
-  /// Small motions that the joints allow, a column each, independent and no more than `most`; greatest entry 1 rad or the mechanism's
-  /// length.
+  /// Small motions that the joints allow, one per column, independent and at most `most`; largest entry 1 rad or the mechanism's length.
   Eigen::MatrixXd freedoms(int most) const;
-  /// Of these motions, how many there are in all.
+  /// Total number of these motions.
   int mobility() const;
 
  private:

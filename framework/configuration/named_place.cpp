@@ -4,7 +4,7 @@ namespace pintle {
 
 namespace {
 
-/// Where the scene says something of this name.
+/// The place in the scene that defines this name.
 Place place_of(const Scene& scene, const std::string& name) {
   for (const SceneJoint& j : scene.joints)
     if (j.name == name) return j.place;

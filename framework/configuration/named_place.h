@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// Where a scene says what it says of a joint, driver, body at the start, or contact; the thing itself where no file was read.
+/// The place in a scene that defines a joint, driver, body at the start, or contact; the element itself where no file was read.
 Place named_place(const Scene&, const std::string& name);
 
 }  // namespace pintle

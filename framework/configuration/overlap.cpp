@@ -28,7 +28,7 @@ std::string overlap_words(const ContactPair& pair, double depth) {
   return s.str();
 }
 
-/// The deepest that points of `line` are inside a closed outline; 0 if none is [m].
+/// Largest depth of points of `line` inside a closed outline; 0 if none is inside [m].
 double deepest_inside(const std::vector<Eigen::Vector2d>& outline, const std::vector<Eigen::Vector2d>& line) {
   double out = 0;
   for (const Eigen::Vector2d& p : line) {
@@ -45,7 +45,7 @@ double deepest_inside(const std::vector<Eigen::Vector2d>& outline, const std::ve
   return out;
 }
 
-/// Of outlines a part of which lies far inside the other, where no piece can tell through which it came.
+/// Checks outlines of which a part lies far inside the other, where one can no longer tell through which piece it came.
 void require_outside(const Scene& scene, const Model& model, const State& start) {
   const auto placed = [&](const DrawnProfile& profile) {
     std::vector<Eigen::Vector2d> out;
@@ -53,7 +53,7 @@ void require_outside(const Scene& scene, const Model& model, const State& start)
     for (const Eigen::Vector2d& p : profile.points) out.emplace_back(carrier.r + Eigen::Rotation2D(carrier.angle) * p);
     return out;
   };
-  std::map<std::pair<std::string, std::string>, std::size_t> index;  // contacts have added them in their order
+  std::map<std::pair<std::string, std::string>, std::size_t> index;  // contacts have added them in this order
   const auto of = [&](const PointRef& ref) { return model.profiles[index.try_emplace({ref.body, ref.point}, index.size()).first->second]; };
   for (const SceneContact& c : scene.contacts) {
     const DrawnProfile a = of(c.a), b = of(c.b);
@@ -71,7 +71,7 @@ void require_outside(const Scene& scene, const Model& model, const State& start)
 }  // namespace
 
 void require_apart(const Scene& scene, const Model& model, const State& start) {
-  constexpr double rounding = 1e-9;  // of the mechanism's length
+  constexpr double rounding = 1e-9;  // relative to the mechanism's length
   const System& system = model.system;
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const ContactPair& pair = system.contacts[c];

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int most_together = 1200;  // unknowns of a dense matrix; more take minutes
+constexpr int most_together = 1200;  // unknowns of a dense matrix; with more it takes minutes
 
 bool is_place(const MotionSignal& signal) { return signal.kind != MotionSignal::state && !is_speed(signal.kind); }
 
@@ -47,7 +47,7 @@ std::string with_rate_unit(double rate, const OwnState& state) {
   return number_text(rate, 6) + " " + unit;
 }
 
-/// The equations f − Cqᵀλ = 0 along the open directions, g = 0, over their sizes, and their derivatives in scaled unknowns.
+/// The equations f − Cqᵀλ = 0 along the free directions and g = 0, scaled, and their derivatives with respect to scaled unknowns.
 class TogetherAtRest {
  public:
   TogetherAtRest(const System& system, Rest& rest, VectorXd& own, const RestingStates& states)
@@ -78,7 +78,7 @@ class TogetherAtRest {
     weigh(n, m);
   }
 
-  /// Along a step of the scaled unknowns. @returns false if the pose cannot be had
+  /// Applies a step of the scaled unknowns. @returns false if the joints cannot be closed there
   bool go(const VectorXd& step, State& state) {
     const Index n = open.cols();
     state.y.head(rest_.held.n()) += rest_.held.scale.cwiseProduct(open * step.head(n));
@@ -97,7 +97,7 @@ class TogetherAtRest {
   VectorXd left;
 
  private:
-  // Forces by the greatest that works at the start, rates by how they answer to the unknowns there.
+  // Forces are scaled by the largest acting force at the start, rates by their sensitivity to the unknowns there.
   void weigh(Index n, Index m) {
     if (weight_.size() == 0) {
       weight_ = VectorXd::Ones(m);
@@ -120,7 +120,7 @@ class TogetherAtRest {
   double force_ = 1;
 };
 
-// The least x of slope x = −left, its growth held by `damping`.
+// The least-squares solution x of slope x = −left, damped by `damping`.
 VectorXd damped_step(const TogetherAtRest& now, double damping) {
   const Index n = now.left.size();
   MatrixXd A(2 * n, n);
@@ -130,10 +130,10 @@ VectorXd damped_step(const TogetherAtRest& now, double damping) {
   return Eigen::ColPivHouseholderQR<MatrixXd>(A).solve(right);
 }
 
-// States that a direction in which nothing changes moves.
+// States changed by a direction along which the equations do not change.
 std::vector<std::string> undetermined_states(const System& system, const TogetherAtRest& now, const std::vector<int>& sought) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(now.slope.transpose() * now.slope));
-  constexpr double zero = 1e-14, moves = 1e-3;  // of squares; of a unit direction
+  constexpr double zero = 1e-14, moves = 1e-3;  // of squared singular values; of a unit direction
   const Index n = now.open.cols();
   std::vector<std::string> out;
   for (std::size_t i = 0; i < sought.size(); ++i) {
@@ -229,7 +229,7 @@ JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const
 }
 
 std::string moving_state(const System& system, const RestingStates& states, const State& state, std::vector<std::string>& notes) {
-  constexpr double still = 1e-9;  // of its scale, a second
+  constexpr double still = 1e-9;  // relative to its scale, per second
   for (const int i : states.kept) {
     const OwnState& own = system.states[at(i)];
     const SignalLaw& law = system.laws[at(own.rate)];

@@ -24,11 +24,11 @@ int joint_of(const System& system, int row) {
   return static_cast<int>(next - system.row_begin.begin()) - 1;
 }
 
-constexpr int along_speeds = 2;  ///< the last of the attempts
+constexpr int along_speeds = 2;  ///< the last attempt
 
-/// A pose near y that the joints allow, drivers let go; none where nothing can move.
+/// A configuration near y that the joints allow with drivers released; none where nothing can move.
 std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y, int attempt) {
-  constexpr double far = 1e-2;  // of the mechanism, and radians
+  constexpr double far = 1e-2;  // relative to the mechanism's length, and radians
   Equations eq(system);
   const VectorXd W = system.scale.cwiseAbs2();
   const auto held = [&](const VectorXd& at_y, SparseRows* J) {
@@ -49,8 +49,8 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
   };
   SparseRows J;
   held(y, &J);
-  VectorXd way = y.segment(system.n(), system.n());                 // along a branch, where the pose is singular
-  for (Index i = 0; i < way.size() && attempt < along_speeds; ++i)  // any direction that no symmetry shares
+  VectorXd way = y.segment(system.n(), system.n());                 // along a branch, where the configuration is singular
+  for (Index i = 0; i < way.size() && attempt < along_speeds; ++i)  // a direction without any symmetry
     way[i] = system.scale[i] * std::sin(1.7 + 12.9898 * static_cast<double>(i + 1) + 4.1414 * attempt);
   way += least_step(J, W, -(J * way), 1e-13, 4);
   const double reach = way.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
@@ -59,7 +59,7 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
     VectorXd to = y;
     to.head(system.n()) += step * way;
     VectorXd C = held(to, &J);
-    for (int i = 0; i < 40 && C.lpNorm<Eigen::Infinity>() > 1e-12; ++i) {  // next to a branch a quarter is left each time
+    for (int i = 0; i < 40 && C.lpNorm<Eigen::Infinity>() > 1e-12; ++i) {  // next to a branch each step leaves a quarter
       to.head(system.n()) += least_step(J, W, -C, 1e-13, 2);
       C = held(to, &J);
     }
@@ -75,12 +75,12 @@ RowSpace row_space_at(const System& system, double t, const VectorXd& y, double 
   return row_space(system, eq, tolerance);
 }
 
-/// One of them ends in the row that d ends in.
+/// One of them ends with the same row as d.
 bool ends_among(const std::vector<Dependence>& all, const Dependence& d) {
   return std::any_of(all.begin(), all.end(), [&](const Dependence& e) { return e.N.back().first == d.N.back().first; });
 }
 
-/// Orthonormal vectors of the weights' span.
+/// Orthonormal basis of the span of the weights.
 MatrixXd basis(const std::vector<Dependence>& all, Index rows) {
   MatrixXd N = MatrixXd::Zero(rows, static_cast<Index>(all.size()));
   for (Index k = 0; k < N.cols(); ++k) {
@@ -90,8 +90,8 @@ MatrixXd basis(const std::vector<Dependence>& all, Index rows) {
   return Eigen::HouseholderQR<MatrixXd>(N).householderQ() * MatrixXd::Identity(N.rows(), N.cols());
 }
 
-/// Which of the dependences to leave out, as many as there are more of them than of `permanent` ones, so that the others
-/// span what is nearest to those: null spaces are compared, whose rows and weights change with the pose.
+/// Marks as many dependences as `all` has more than `permanent`, such that the others span the space nearest to `permanent`: null spaces
+/// are compared, since rows and weights change with the configuration.
 std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector<Dependence>& permanent, Index rows) {
   std::vector<bool> out(all.size(), permanent.empty());
   if (permanent.empty() || permanent.size() >= all.size()) return out;
@@ -109,10 +109,10 @@ std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector
   return out;
 }
 
-/// The dependences of a pose: those that hold near it too, and those that hold at it alone.
+/// The dependences of a configuration: those that also hold near it, and those that hold only in it.
 struct Judged {
   std::vector<Dependence> permanent, singular;
-  std::vector<std::vector<Dependence>> near;  ///< all at poses nearby
+  std::vector<std::vector<Dependence>> near;  ///< all dependences in configurations nearby
 };
 
 Judged judged(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& here) {
@@ -149,7 +149,7 @@ struct Driven {
   double weight;  ///< of its row, with row_scale
 };
 
-/// The drivers of a dependence, their weights over the last one's.
+/// The drivers of a dependence, with their weights relative to the last one's.
 std::vector<Driven> driven_by(const System& system, const Dependence& d) {
   std::vector<Driven> out;
   for (const auto& [row, weight] : d.N)
@@ -165,7 +165,7 @@ bool alike(const std::vector<Driven>& a, const std::vector<Driven>& b) {
   });
 }
 
-/// When laws combined with constant weights leave what they held at t; over by how much.
+/// The time at which laws combined with constant weights deviate from their value at t, and by how much.
 std::optional<std::pair<double, double>> first_contradiction(const std::vector<Driven>& drivers, double t, double until) {
   constexpr int samples = 2000;
   constexpr double position = 1e-9, speed = 1e-7;
@@ -186,7 +186,7 @@ std::optional<std::pair<double, double>> first_contradiction(const std::vector<D
   return std::nullopt;
 }
 
-/// Nᵀ of the accelerations that the rows ask while coordinates go on at their speeds; 0 if they agree, scaled.
+/// Nᵀ applied to the accelerations that the rows require at the present speeds; 0 if they agree, scaled.
 double contradiction_of_accelerations(const System& system, double t, const VectorXd& y, const Dependence& d) {
   const Index n = system.n();
   const VectorXd s = y.segment(n, n);
@@ -210,7 +210,7 @@ double contradiction_of_accelerations(const System& system, double t, const Vect
   return std::abs(sum) / (size * rate * rate);
 }
 
-/// Joints that repeat each other and do not quite fit: C = 0 is missed by more than rounding.
+/// Joints that repeat each other but do not quite fit: C = 0 is violated by more than rounding.
 std::string misfit(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& permanent) {
   constexpr double rounding = 2e-12;
   Equations eq(system);
@@ -306,7 +306,7 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
 }
 
 std::string explain_pose(const System& system, double t, const VectorXd& y) {
-  constexpr double close = 1e-3;  // what of a row is left so near to a dead centre that no step goes on
+  constexpr double close = 1e-3;  // rest of a row so near to a dead centre that no step can continue
   const RowSpace space = row_space_at(system, t, y);
   const std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
   if (!conflict.empty()) return conflict;

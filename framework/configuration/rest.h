@@ -8,33 +8,33 @@
 
 namespace pintle {
 
-/// Drivers of `held` held where their laws in `from` are at t.
+/// Fixes the drivers of `held` at the values of their laws in `from` at t.
 void hold_drivers(const System& from, double t, System& held);
 bool has_potential(const System&);
 
-/// Own states that stay at numbers given from outside.
+/// Own states held at prescribed values.
 struct KeptStates {
   std::vector<int> which;
-  std::shared_ptr<Eigen::VectorXd> at;  ///< of every own state
+  std::shared_ptr<Eigen::VectorXd> at;  ///< values of all own states
 };
 
-/// What is asked of a mechanism at rest in a pose: the forces out of balance, the potential energy.
+/// A mechanism at rest in a configuration: the forces out of balance and the potential energy.
 class Rest {
  public:
   Rest(const System&, double t, const KeptStates& = {});
 
-  /// Brings the pose onto the joints and evaluates everything there.
-  /// @returns false if it cannot be, or only by a leap
+  /// Projects the configuration onto the joints and evaluates everything there.
+  /// @returns false if that fails, or takes too large a step
   bool project(State&, double farthest);
 
-  /// Largest coordinate of a displacement, over the mechanism's extent, angles as they are.
+  /// Largest coordinate of a displacement, relative to the mechanism's size, angles in radians.
   double size(const Eigen::VectorXd& displacement) const;
-  /// Greatest force or couple left over the greatest at work.
+  /// Largest remaining force or couple relative to the largest acting one.
   double residual() const;
-  /// The same at the metric of M⁻¹: what the flow lowers.
+  /// The same in the metric of M⁻¹: the quantity that the flow reduces.
   double unrest() const;
   double rounding() const { return 1e-14 * magnitude_; }  ///< of the potential energy
-  double at_work() const;                                 ///< greatest force, or couple over the mechanism's length
+  double at_work() const;                                 ///< largest force, or couple over the mechanism's length
 
   System held;  ///< the mechanism with its drivers held
   Equations eq;
@@ -51,7 +51,7 @@ class Rest {
   double t_, span_ = 1, magnitude_ = 0;
 };
 
-/// Columns: displacements over System::scale that violate no row.
+/// Columns: displacements, relative to System::scale, that violate no constraint.
 Eigen::MatrixXd open_directions(const System&, const Equations&);
 
 }  // namespace pintle

@@ -8,7 +8,7 @@ namespace pintle {
 using Eigen::VectorXd;
 
 namespace {
-constexpr double damping = 1e-12;  // of least squares by normal equations; the sweeps take it away
+constexpr double damping = 1e-12;  // for least squares by normal equations; the sweeps remove its effect
 constexpr int sweeps = 6;
 }  // namespace
 

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-constexpr double weightless = 1e-6;  ///< of the largest weight of a dependence
+constexpr double weightless = 1e-6;  ///< relative to the largest weight of a dependence
 
 /// diag(row_scale) Cq diag(scale)
 Eigen::SparseMatrix<double> scaled_jacobian(const System& system, const Equations& eq) {
@@ -35,7 +35,7 @@ Eigen::SparseMatrix<double> scaled_jacobian(const System& system, const Equation
 
 using Weights = std::vector<std::pair<int, double>>;
 
-/// R of A = Q R with columns of A in the order `column`, as SPQR leaves it.
+/// R of A = Q R with the columns of A in the order `column`, from SPQR.
 class QR {
  public:
   QR(const Eigen::SparseMatrix<double>& A, double tolerance) {
@@ -63,7 +63,7 @@ class QR {
   QR(const QR&) = delete;
   QR& operator=(const QR&) = delete;
 
-  /// Rank, and for each column of A that depends on others the weights that make it and them vanish.
+  /// Rank, and for each dependent column of A the weights with which it and the others cancel.
   int rank(std::vector<Weights>& idle) const {
     const auto* begin = static_cast<const SuiteSparse_long*>(R_->p);
     const auto* row = static_cast<const SuiteSparse_long*>(R_->i);
@@ -122,7 +122,7 @@ void clean(Weights& w) {
   std::sort(w.begin(), w.end());
 }
 
-/// Groups of dependences that share rows.
+/// Groups of dependences with common rows.
 std::vector<std::vector<std::size_t>> groups(const std::vector<Weights>& all, int rows) {
   std::vector<std::size_t> parent(all.size()), owner(at(rows), all.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -142,7 +142,7 @@ std::vector<std::vector<std::size_t>> groups(const std::vector<Weights>& all, in
   return out;
 }
 
-/// Combines the dependences of a group so that each ends in a row that no other has: the latest rows are the idle ones.
+/// Combines the dependences of a group so that each ends with a row that no other has: the last rows count as redundant.
 void to_echelon(const std::vector<std::size_t>& group, std::vector<Weights>& all) {
   std::vector<int> rows;
   for (std::size_t d : group)
@@ -150,7 +150,7 @@ void to_echelon(const std::vector<std::size_t>& group, std::vector<Weights>& all
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   const auto count = static_cast<Index>(group.size()), width = static_cast<Index>(rows.size());
-  if (static_cast<double>(count) * static_cast<double>(count) * static_cast<double>(width) > 1e9) return;  // any basis will do
+  if (static_cast<double>(count) * static_cast<double>(count) * static_cast<double>(width) > 1e9) return;  // any basis is acceptable
   MatrixXd Z = MatrixXd::Zero(width, count);
   for (Index k = 0; k < count; ++k)
     for (const auto& [row, weight] : all[group[static_cast<std::size_t>(k)]])

@@ -1,4 +1,4 @@
-// How a mechanism at rest answers to a small push: the reduced stiffness and its eigenvalues.
+// Response of a mechanism at rest to a small disturbance: the reduced stiffness and its eigenvalues.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_dense = 1200;  // dense beyond this takes minutes
+constexpr int most_dense = 1200;  // larger dense matrices take minutes
 
 std::string most_moved(const System& system, const VectorXd& scaled) {
   double most = -1;
@@ -27,7 +27,7 @@ std::string most_moved(const System& system, const VectorXd& scaled) {
   return system.bodies[which].name;
 }
 
-// Forces at work times lengths: what a stiffness that is none can still show by rounding.
+// Acting forces times lengths: the scale below which a stiffness is rounding.
 double at_work(const System& system, const Equations& eq, const VectorXd& lambda) {
   double most = lambda.size() > 0 ? lambda.cwiseQuotient(system.row_scale).lpNorm<Eigen::Infinity>() : 0;
   for (const Body& b : system.bodies) most = std::max(most, b.m * system.gravity.norm() * system.length);

@@ -23,7 +23,7 @@ std::string place_of_law(const Scene& scene, const Place& place) {
   return " (" + file + (place.line > 0 ? ":" + std::to_string(place.line) : "") + ")";
 }
 
-// A table by its file: its whole text, which starts {"table": "map.csv", is too long.
+// Names a table by its file: its complete text, which starts with {"table": "map.csv", is too long.
 std::string shown(const Law& law) {
   constexpr std::string_view table = "{\"table\": \"";
   if (!law.text.starts_with(table)) return "law " + law.text;
@@ -36,7 +36,7 @@ std::string seen(const Law& law, const std::vector<double>& in) {
   return out;
 }
 
-// f(its owner's name and place, the law, its index in the system), of each law of signals.
+// Calls f(its owner's name and place, the law, its index in the system) for each law of signals.
 template <class F>
 void each_law(const Scene& scene, const Model& model, F f) {
   const auto take = [&](const auto& owner, const Law& law, int index) {
@@ -118,7 +118,7 @@ bool has_begun(const std::vector<std::string>& warnings, const std::string& with
 /// What a driver that no event releases imposes: one coordinate and its rate, between two bodies or two markers.
 struct DrivenCoordinate {
   bool angle;
-  int a, b;  ///< bodies of an angle, markers of a distance
+  int a, b;  ///< bodies for an angle, markers for a distance
   const TimeLaw* law;
 };
 
@@ -136,7 +136,7 @@ std::vector<DrivenCoordinate> driven_by_laws(const System& system) {
   return out;
 }
 
-/// A signal at a time, where a driver alone decides it; NaN: none does. Angles are counted from the start.
+/// A signal at a time, where a driver alone determines it; NaN otherwise. Angles are counted from the start.
 double driven_value(const System& system, const std::vector<DrivenCoordinate>& drivers, const MotionSignal& signal, const State& start,
                     double t) {
   using Kind = MotionSignal::Kind;
@@ -184,7 +184,7 @@ std::vector<std::string> tables_left(const Scene& scene, const Model& model, con
     for (int i = 1; i <= looks; ++i) {
       const double t = scene.run.until * i / looks;
       for (std::size_t k = 0; k < in.size(); ++k) in[k] = driven_value(system, drivers, system.signals[at(law.in[k])], start, t);
-      if (!std::ranges::all_of(in, [](double x) { return std::isfinite(x); })) return;  // the motion decides
+      if (!std::ranges::all_of(in, [](double x) { return std::isfinite(x); })) return;  // it depends on the motion
       if (say(t, "by t = " + number_text(t, 4) + " s, as its driver moves")) return;
     }
   });
@@ -234,7 +234,7 @@ void warn_of_signals(const Scene& scene, const Model& model, const State& state,
 
 std::string explain_signals(const Scene& scene, const Model& model, const State& start, const State& now) {
   if (model.system.laws.empty() || now.y.size() != model.system.n_y()) return "";
-  constexpr double ahead = 1e-9;  // of the run: where it would be next
+  constexpr double ahead = 1e-9;  // relative to the run: where it would be next
   const std::string here = LawsAt(scene, model, start, now).found;
   if (!here.empty()) return here;
   const System& system = model.system;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int pieces_per_beam = 8;
 
-/// Rotation of the section; a bar's is that of its chord.
+/// Rotation of the section; for a bar that of its chord.
 Eigen::Matrix<double, 1, 4> rotation(const Bar&, const Coords<Bar>& x, double) {
   const Eigen::Vector2d d = x.col(1) - x.col(0);
   const Eigen::RowVector2d across = Eigen::RowVector2d(-d.y(), d.x()) / d.squaredNorm();
@@ -21,13 +21,13 @@ Eigen::Matrix<double, 1, 4> rotation(const Bar&, const Coords<Bar>& x, double) {
   return row;
 }
 
-// What a section of a bar shows: a fibre distance of a fiftieth of its length, since it has no height of its own.
+// Half height drawn for a section; a bar without a height gets a fiftieth of its length.
 double half_height(const Fibre& fibre, double length) { return fibre.distance > 0 ? fibre.distance : 0.02 * length; }
 
 constexpr int stations = pieces_per_beam + 1;
 constexpr int across = 3;  // right side, axis, left side
 
-/// Where a point of the ribbon is: points go by element, by station along it, from right to left.
+/// Position of a point of the ribbon: points are ordered by element, by station along it, from right to left.
 struct BeamStation {
   int element;
   double t;     ///< along it, 0 to 1
@@ -122,7 +122,7 @@ Eigen::Matrix4Xd BodyDrawing::stress(const StressField& field) const {
 
 namespace {
 
-/// A shape scaled to a greatest displacement of 1 mm: displacements [mm] and the stress per mm [Pa].
+/// A shape scaled to a largest displacement of 1 mm: displacements [mm] and the stress per mm [Pa].
 struct Scaled {
   Eigen::Matrix2Xd u;
   Eigen::RowVectorXd mises;
@@ -155,7 +155,7 @@ void write_shapes(const std::filesystem::path& file, const BodyDrawing& drawing,
 void write_shape_animation(const std::filesystem::path& directory, const std::string& name, const BodyDrawing& drawing,
                            const Eigen::VectorXd& shape, int frames) {
   const Scaled s = scaled(drawing, shape);
-  const double drawn = 0.1 * drawing.size;  // greatest displacement in the picture [m]
+  const double drawn = 0.1 * drawing.size;  // largest displacement in the picture [m]
   std::vector<CollectedFile> files;
   for (int f = 0; f < frames; ++f) {
     const double phase = static_cast<double>(f) / frames, a = std::sin(2 * std::numbers::pi * phase);

@@ -15,7 +15,7 @@ using Eigen::Matrix2Xd;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
-/// Values of each point, one point below the other, as a column each.
+/// Converts the values of each point, stacked point by point, into one column per point.
 template <int rows>
 Eigen::Matrix<double, rows, Eigen::Dynamic> by_point(const MatrixXd& shapes, const Eigen::VectorXd& eta) {
   Eigen::Matrix<double, rows, Eigen::Dynamic> out(rows, shapes.rows() / rows);
@@ -81,7 +81,7 @@ double FlexibleDrawing::largest_displacement(const Eigen::VectorXd& eta) const {
 
 namespace {
 
-/// The node where a port that is no rim's sits.
+/// The node of a port that does not belong to a rim.
 int node_of(const FeModel& model, const Port& port) {
   int node = 0;
   while (model.independent_of(model.begin[static_cast<std::size_t>(node)]) != port.freedom[0]) ++node;

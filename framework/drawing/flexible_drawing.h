@@ -9,25 +9,24 @@
 
 namespace pintle {
 
-/// Where a flexible body is and how it is bent: its coordinates and speeds.
+/// Position and deformation of a flexible body: its coordinates and speeds.
 struct FlexiblePose {
   Eigen::Vector2d r, v;        ///< mass centre of the undeformed body, world axes [m], [m/s]
   double angle = 0, w = 0;     ///< of the frame [rad], [rad/s]
   Eigen::VectorXd eta, speed;  ///< modal coordinates and their rates, n
 };
 
-/// A flexible body of a mechanism as it is drawn: a plate as its own mesh, a beam as a ribbon as
-/// high as its sections. Displacement and stress are linear in the modal coordinates; the shapes at
-/// all drawn points live on here, and only if frames are asked for. Displacements are those of
-/// first order: the foreshortening of a body that stiffens is not drawn.
+/// A flexible body of a mechanism for drawing: a plate as its own mesh, a beam as a ribbon with the height of its sections. Displacement
+/// and stress are linear in the modal coordinates; the shapes at all drawn points are stored here, and only if frames are requested.
+/// Displacements are those of first order: foreshortening is not drawn.
 class FlexibleDrawing {
  public:
   /// @param centre  mass centre in body axes [m]
   FlexibleDrawing(const ElasticBody&, const ModalModel&, const Eigen::Vector2d& centre);
 
-  /// The frame's grid: point x of the body, displaced by u in body axes, is drawn at
+  /// The body's grid: point x of the body, displaced by u in body axes, is drawn at
   ///   r + A(θ)(x − centre + exaggeration·u),
-  /// with these fields, which no exaggeration enters:
+  /// with these fields, which are not exaggerated:
   ///
   /// | field                                | what |
   /// |--------------------------------------|---------------------------------------------------|
@@ -43,7 +42,7 @@ class FlexibleDrawing {
 
   const Eigen::Matrix2Xd& points() const { return x_; }  ///< from the mass centre, undeformed, body axes [m]
   const std::vector<Cells>& cells() const { return cells_; }
-  const Eigen::MatrixXd& displacements() const { return u_; }  ///< [x y] of all points, a column a shape, body axes
+  const Eigen::MatrixXd& displacements() const { return u_; }  ///< [x y] of all points, one column per shape, body axes
   const Eigen::MatrixXd& stresses() const { return stress_; }  ///< [σx σy τxy σz] likewise
 
  private:
@@ -51,25 +50,22 @@ class FlexibleDrawing {
   Eigen::Matrix2Xd x_;  ///< drawn points from the mass centre, undeformed, body axes [m]
   std::vector<Cells> cells_;
   double size_;
-  // A column a shape, drawn points one below the other:
+  // One column per shape, with the drawn points stacked:
   Eigen::MatrixXd u_;       ///< displacement [x y], body axes
-  Eigen::MatrixXd stress_;  ///< [σx σy τxy σz]; of beams the stress along the axis stands in σx
-  Eigen::MatrixXd forces_;  ///< of beams: [N V M]
+  Eigen::MatrixXd stress_;  ///< [σx σy τxy σz]; for beams σx is the stress along the axis
+  Eigen::MatrixXd forces_;  ///< for beams: [N V M]
 };
 
-/// Stress of a named point while a mechanism runs: a few rows times the modal coordinates. It is
-/// told from displacement alone, which misses what loads between a beam's nodes, such as its
-/// inertia, add within an element: less as the elements are finer.
+/// Stress of a named point during a run: a few rows times the modal coordinates. It is computed from displacement alone, without the
+/// contribution of loads between a beam's nodes, such as its inertia: the error decreases with finer elements.
 struct StressProbe {
   bool beam = false;
-  /// Plates: [σx σy τxy σz] [Pa], 4 × n, the mean over the elements that meet at the node. Beams:
-  /// [N V M] [N, N, N m], 3 × n, the mean of both sides of the node.
+  /// Plates: [σx σy τxy σz] [Pa], 4 × n, the mean over the elements at the node. Beams: [N V M] [N, N, N m], 3 × n, the mean of both sides
+  /// of the node.
   Eigen::MatrixXd rows;
-  double A = 0, I = 0, distance = 0;  ///< of a beam's section there, likewise [m²], [m⁴], [m]
+  double A = 0, I = 0, distance = 0;  ///< of a beam's section there, also the mean [m²], [m⁴], [m]
 };
-/// @throws SceneError  there is no such point; the origin of the axes or the middle of a hole,
-/// where
-///                     there is no material
+/// @throws SceneError  there is no such point; it is the origin of the axes or the middle of a hole, where there is no material
 StressProbe stress_probe(const Scene&, const ElasticBody&, const ModalModel&, const PointRef&);
 
 }  // namespace pintle

@@ -27,7 +27,7 @@ std::vector<std::string> colour_words(const Drawing& drawing) {
   return out;
 }
 
-/// Points and cells with what they carry, as they are added.
+/// Points and cells with their fields, in the order added.
 struct LineArrays {
   std::vector<double> places, forces, couples;
   std::vector<std::int32_t> connectivity, offsets, parts, owners;
@@ -49,7 +49,7 @@ struct LineArrays {
     forces.insert(forces.end(), {force.x(), force.y(), 0});
     couples.push_back(couple);
   }
-  /// Of the points that were added last.
+  /// Adds a cell of the points added last.
   void add_cell(VtkCell type, std::int32_t first, bool back_to_first, int part, int owner) {
     for (std::int32_t p = first; p < n_points(); ++p) connectivity.push_back(p);
     if (back_to_first) connectivity.push_back(first);
@@ -60,7 +60,7 @@ struct LineArrays {
   }
 };
 
-/// What is filled is a polygon, other lines are polylines.
+/// Filled lines are polygons, others are polylines.
 VtkCell cell_of(const DrawnLine& line) {
   if (line.points.size() == 1) return vtk_vertex;
   const bool solid = line.part == Part::link || line.part == Part::cylinder;
@@ -103,7 +103,7 @@ void add_owners(const Drawing& drawing, const LineArrays& arrays, VtuText& vtu) 
   }
 }
 
-/// Columns as tuples; vectors of the plane get a third component, zero.
+/// Columns as tuples; two-dimensional vectors get a third component, zero.
 template <class Value>
 std::vector<Value> tuples_of(const Eigen::Ref<const Eigen::MatrixXd>& v) {
   const Eigen::Index components = v.rows() == 2 ? 3 : v.rows();

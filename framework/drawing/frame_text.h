@@ -9,14 +9,14 @@
 
 namespace pintle {
 
-/// Cells of a body, the same in each of its frames, ready for their files.
+/// Cells of a body, the same in each of its frames, prepared for their files.
 struct PackedCells {
   explicit PackedCells(const std::vector<Cells>&);
   std::size_t size = 0;
   VtuText::Packed connectivity, offsets, types;
 };
 
-// Files of an animation as text; fields as framework/drawing/vtk.h says.
+// Files of an animation as text; the fields are described in framework/drawing/vtk.h.
 std::string lines_text(const Drawing&);
 std::string body_text(const DrawnBody&, double t, double deformation, const PackedCells&);
 /// A vertex for each impact, at its point.

@@ -57,8 +57,8 @@ struct FrameWriter::Bodies {
 };
 
 struct FrameWriter::Paths {
-  std::vector<std::string> names, contacts;            ///< of what is followed, of what touches
-  std::vector<std::vector<Eigen::Vector2d>> followed;  ///< a path each
+  std::vector<std::string> names, contacts;            ///< of followed points, of contacts
+  std::vector<std::vector<Eigen::Vector2d>> followed;  ///< one path each
   std::vector<std::vector<Eigen::Vector2d>> touching;  ///< likewise
   std::vector<double> t;                               ///< of the frames [s]
 
@@ -73,7 +73,7 @@ struct FrameWriter::Paths {
     for (std::size_t k = 0; k < followed.size(); ++k) out.lines.push_back({Part::trace, static_cast<int>(k), false, followed[k]});
     return out;
   }
-  /// Where a contact was, straight between two frames.
+  /// Position of a contact, interpolated linearly between two frames.
   Eigen::Vector2d place(const DrawnImpact& impact) const {
     const auto& path = touching[static_cast<std::size_t>(impact.place)];
     const auto after = static_cast<std::size_t>(std::ranges::lower_bound(t, impact.t) - t.begin());

@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// VTK's numbers of the kinds of cells; framework/drawing/vtk_encoder.cpp holds them to VTK's own.
+/// VTK's numbers of the kinds of cells; framework/drawing/vtk_encoder.cpp checks them against VTK's own.
 enum VtkCell : unsigned char {
   vtk_vertex = 1,
   vtk_line = 3,

@@ -24,7 +24,7 @@ static_assert(agree(vtk_line, VTK_LINE) && agree(vtk_line3, VTK_QUADRATIC_EDGE))
 static_assert(agree(vtk_triangle, VTK_TRIANGLE) && agree(vtk_triangle6, VTK_QUADRATIC_TRIANGLE) && agree(vtk_quadrilateral, VTK_QUAD));
 static_assert(agree(vtk_quadrilateral8, VTK_QUADRATIC_QUAD) && agree(vtk_quadrilateral9, VTK_BIQUADRATIC_QUAD));
 
-/// Columns as tuples; vectors of the plane get a third component, zero.
+/// Columns as tuples; two-dimensional vectors get a third component, zero.
 vtkNew<vtkDoubleArray> array_of(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& v) {
   const int components = static_cast<int>(v.rows() == 2 ? 3 : v.rows());
   vtkNew<vtkDoubleArray> array;
@@ -66,7 +66,7 @@ std::string encode_grid(const Eigen::Matrix2Xd& at, const std::vector<Cells>& ce
   time->InsertNextValue(t);
   grid->GetFieldData()->AddArray(time);
 
-  // To a string, so that VTK touches no file and prints nothing when one cannot be written.
+  // To a string, so that VTK accesses no file and prints nothing if one cannot be written.
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputDataObject(grid);
   writer->SetDataModeToAppended();

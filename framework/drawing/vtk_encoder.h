@@ -7,8 +7,8 @@
 
 namespace pintle {
 
-/// What the module `vtk` offers (meshes/module.h), the one that links VTK: the files of single bodies, which are large, written once, and
-/// packed as small as zlib makes them. Frames, many and small, are written without VTK (frame_text.h).
+/// Interface of the module `vtk` (meshes/module.h), which links VTK, for the files of single bodies: they are large, written once, and
+/// compressed as much as zlib can. Frames, which are many and small, are written without VTK (frame_text.h).
 struct VtkEncoder {
   const char* version;
   /// The text of write_grid's file; nothing if VTK fails.

@@ -10,8 +10,8 @@ namespace pintle {
 
 namespace {
 
-// As VTK reads an array: the number of blocks, the size of a whole one and of the last, if that is no whole one, how long each is when
-// packed; then the blocks.
+// An array in the format that VTK reads: the number of blocks, the size of a full block and of the last one if it is not full, the
+// compressed length of each; then the blocks.
 std::string packed_array(std::string_view bytes) {
   constexpr std::size_t block = 32768;
   const std::size_t blocks = (bytes.size() + block - 1) / block;
@@ -59,7 +59,7 @@ VtuText::Packed VtuText::pack(std::span<const std::int32_t> values) { return pac
 VtuText::Packed VtuText::pack(std::span<const unsigned char> values) { return packed_values("UInt8", values); }
 
 VtuText::Packed VtuText::pack(std::span<const std::string> values) {
-  std::string bytes;  // each ends with a zero
+  std::string bytes;  // each ends with a zero byte
   for (const std::string& value : values) bytes.append(value.c_str(), value.size() + 1);
   return {"String", values.size(), packed_array(bytes)};
 }

@@ -9,14 +9,14 @@
 
 namespace pintle {
 
-/// An unstructured grid as the text of a .vtu file, made without VTK: some XML, then the arrays as they stand in memory
-/// ("appended", "raw") in blocks packed by LZ4, which VTK and ParaView unpack.
+/// An unstructured grid as the text of a .vtu file, made without VTK: some XML, then the arrays as in memory ("appended", "raw") in blocks
+/// compressed by LZ4, which VTK and ParaView can read.
 class VtuText {
  public:
-  /// Where an array belongs. Of the cells VTK asks for `connectivity`, `offsets` and `types`, of the places for `Points`.
+  /// Section of an array. VTK requires `connectivity`, `offsets` and `types` for the cells, and `Points` for the places.
   enum Section { of_frame, on_points, on_cells, places, cells };
 
-  /// An array made ready for files that have it in common.
+  /// An array prepared for several files.
   struct Packed {
     std::string type;
     std::size_t values = 0;

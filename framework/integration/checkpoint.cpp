@@ -1,4 +1,4 @@
-// What an integrator remembers, out to bytes and back: the part of Integrator that a restart needs.
+// Saves and restores the data of an Integrator that a restart needs.
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -18,7 +18,7 @@ void Integrator::archive(A& x) {
     if (!x.good()) return;
     stepper_ = make_stepper(method, system_, scheme_, eq_);
     if (!stepper_) return x.fail();
-    if (method != name(scheme_)) switching_.goes_on_with(method);  // what `auto` takes now may be another
+    if (method != name(scheme_)) switching_.goes_on_with(method);  // the method that `auto` chooses now may differ
     scheme_.fallback = find_tableau(fallback);
     stepper_->load(x);
   } else {
@@ -33,7 +33,7 @@ std::string Integrator::save() const {
   return out.str();
 }
 
-// Of what was loaded, all that is an index or a size.
+// Checks all loaded indices and sizes.
 const char* Integrator::fault_of_loaded() const {
   const Eigen::Index n = system_.n(), rows = system_.n_rows(), n_y = system_.n_y();
   const auto whole = [&](const Instant& node) {

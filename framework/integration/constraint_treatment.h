@@ -2,9 +2,9 @@
 
 namespace pintle {
 
-/// How C = 0 and Ċ = 0 are kept.
+/// How C = 0 and Ċ = 0 are enforced.
 enum class Constraints {
-  projection,   ///< both: after each explicit step, by the shortest way in the metric of M; in each implicit one
+  projection,   ///< both: after each explicit step by projection in the metric of M; in each implicit step
   partitioning  ///< both, in each stage of an explicit scheme: dependent coordinates follow from the independent ones
 };
 

@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// What an integration has cost so far.
+/// Cost of an integration so far.
 struct Counts {
   long steps = 0, rejected = 0, events = 0, evaluations = 0, factorizations = 0, partitions = 0;
   template <class A>

@@ -32,8 +32,8 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
   interpolate_friction(step, x, out);
   out.y.resize(system.n_y());
 
-  // q = Σ of the six quintic Hermite polynomials, s = q′/h. In a short step the rounding of q1 − q0 over h is all that tells s from the
-  // cubic through the speeds and accelerations of both ends, which is then the better one.
+  // q = Σ of the six quintic Hermite polynomials, s = q′/h. In a short step, s differs from the cubic through the speeds and accelerations
+  // of both ends only by the rounding of q1 − q0 over h; then the cubic is better.
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   const double p1 = 10 * x3 - 15 * x4 + 6 * x5, v0 = x - 6 * x3 + 8 * x4 - 3 * x5, v1 = -4 * x3 + 7 * x4 - 3 * x5,
                a0 = 0.5 * x2 - 1.5 * x3 + 1.5 * x4 - 0.5 * x5, a1 = 0.5 * x3 - x4 + 0.5 * x5;
@@ -53,7 +53,7 @@ void interpolate_quintic(const System& system, const Step& step, double t, State
   }
 }
 
-// Each as good as the ends of an implicit step are.
+// Each is as accurate as the ends of an implicit step.
 void interpolate_cubic(const System& system, const Step& step, double t, State& out) {
   const double x = (t - step.from.state.t) / step.h;
   const double rise = x * x * (3 - 2 * x), from = x * (1 - x) * (1 - x) * step.h, to = x * x * (x - 1) * step.h;

@@ -4,10 +4,10 @@
 
 namespace pintle {
 
-/// Dense output at from.t ≤ t ≤ to.t, not projected onto the constraints: q by the quintic that meets q, s and a at both ends, s by its
-/// derivative, x and z by the cubic.
+/// Dense output at from.t ≤ t ≤ to.t, not projected onto the constraints: q by the quintic that matches q, s and a at both ends, s by its
+/// derivative, x and z by cubics.
 void interpolate_quintic(const System&, const Step&, double t, State& out);
-/// For an implicit step, whose q, s and a agree to h² only: each by the cubic of itself and the next.
+/// For an implicit step, where q, s and a agree only to h²: each by the cubic of its values and its derivative's values.
 void interpolate_cubic(const System&, const Step&, double t, State& out);
 
 }  // namespace pintle

@@ -13,7 +13,7 @@ using Index = Eigen::Index;
 
 namespace {
 
-constexpr double slowest_speed = 1e-6;  // over the finest length and the step: slower is rest
+constexpr double slowest_speed = 1e-6;  // relative to the finest length per step: slower counts as rest
 }  // namespace
 
 ErrorNorm::ErrorNorm(const System& system, double tolerance) : system_(system), tolerance_(tolerance), reach_(system.bodies.size(), 0.0) {
@@ -53,7 +53,7 @@ double ErrorNorm::of(const Step& step, bool follows_impacts) const {
   const auto& y = step.to.state.y;
   const double fastest = std::max(fastest_, fastest_speed(y));
   const double length = fine_length_, slowest = slowest_speed * length / step.h;
-  constexpr double known = 1e-13;  // of the fastest speed, to which constraints are met: an error below it is noise
+  constexpr double known = 1e-13;  // relative to the fastest speed; the constraints are satisfied to this, so a smaller error is noise
   const double across =
       std::max(std::sqrt(length * fastest * std::max(fastest / system_.length, lowest_shape_)), known / tolerance_ * fastest);
   const double speed = std::max(follows_impacts ? std::min(fastest, across) : fastest, slowest);
@@ -71,7 +71,7 @@ double ErrorNorm::of(const Step& step, bool follows_impacts) const {
     judge(n + 3 * b, speed);
     judge(n + 3 * b + 1, speed);
     judge(n + 3 * b + 2, speed / reach);
-    const double per_metre = std::sqrt(system_.bodies[at(static_cast<int>(b))].m);  // shapes of 1/√m
+    const double per_metre = std::sqrt(system_.bodies[at(static_cast<int>(b))].m);  // shapes scale as 1/√m
     const Index begin = system_.eta_begin[at(static_cast<int>(b))], end = system_.eta_begin[at(static_cast<int>(b)) + 1];
     for (Index i = begin; i < end; ++i) {
       const double as_fine = system_.bodies[at(static_cast<int>(b))].flex->omega[i - begin] * length;

@@ -11,24 +11,23 @@
 
 namespace pintle {
 
-/// What errors are measured by. Lengths, modal ones by what their shapes move, are judged against the smallest that matters (a
-/// clearance c, else the mechanism), angles by what they move, speeds against the fastest so far, internal states
-/// against their own scale, integrals against the kinetic energy so far.
+/// Scales of errors. Lengths, and modal coordinates by the displacement of their shapes, are compared with the smallest length that matters
+/// (a clearance c, otherwise the mechanism's length); angles by the displacement they cause; speeds with the fastest so far; internal
+/// states with their own scale; integrals with the kinetic energy so far.
 class ErrorNorm {
  public:
   ErrorNorm(const System&, double tolerance);
 
-  /// Largest error of a step over its scale. @param follows_impacts  where there is a clearance, speeds are judged against what is
-  /// gained across it at the acceleration of the motion, √(c v ω), ω = v/L or of the lowest shape, and those of shapes against
-  /// what is as fine, ω c
+  /// Largest error of a step over its scale. @param follows_impacts  with a clearance, speeds are compared with the speed gained across it
+  /// at the acceleration of the motion, √(c v ω), where ω = v/L or that of the lowest shape, and speeds of shapes with the equally fine ω c
   double of(const Step&, bool follows_impacts) const;
-  /// An accepted node: largest speed and energy so far.
+  /// Takes an accepted node into account: largest speed and energy so far.
   void see(const Eigen::VectorXd& y);
 
   double length() const { return fine_length_; }
-  /// Of any body's centre or of its farthest marker about it [m/s].
+  /// Largest speed of a body's centre, or of its farthest marker relative to the centre [m/s].
   double fastest_speed(const Eigen::VectorXd& y) const;
-  /// What speeds are measured by in a step of h from y [m/s].
+  /// Scale of speeds in a step of h from y [m/s].
   double speed(const Eigen::VectorXd& y, double h) const;
 
   template <class A>

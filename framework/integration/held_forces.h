@@ -13,22 +13,22 @@ namespace pintle {
 
 class Stepper;
 
-/// Some friction sticks, or some rigid contact is closed: by forces that accelerations decide.
+/// Some friction sticks, or some rigid contact is closed, so that the accelerations determine its force.
 bool holds_anything(const System&, const State&);
 
-/// Such forces inside a step. Dense output does not know them: what rests may be pushed and let go again between the ends of a step that
-/// nothing else keeps short.
+/// Such forces inside a step. Dense output does not include them: a body at rest may be pushed and released again within a step that
+/// nothing else limits.
 class HeldForces {
  public:
   /// Evaluates them in the middle of the step. @param work  any state of the system
   void look(const System&, const Stepper&, const Step&, State& work);
   void forget() { known_ = false; }
   bool known() const { return known_; }
-  /// Puts the parabolas through both ends and the middle into the friction of a state at t.
+  /// Sets the friction of a state at t from parabolas through both ends and the middle.
   void put(const Step&, double t, std::vector<DryFriction>&) const;
 
  private:
-  std::unique_ptr<Equations> eq_;  ///< from the first look on
+  std::unique_ptr<Equations> eq_;  ///< created at the first look
   Eigen::VectorXd dy_;
   std::vector<DryFriction> middle_;
   bool known_ = false;

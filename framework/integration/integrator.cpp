@@ -20,9 +20,9 @@ using Index = Eigen::Index;
 
 namespace {
 
-constexpr double least_step = 4e-16;  // of the time: shorter ones are lost in its last digits
+constexpr double least_step = 4e-16;  // relative to the time: shorter steps are lost in its last digits
 
-// What comes so near before one of these, or behind it, comes there: no step fits in between.
+// A time this near one of these ends is set equal to it: no step fits in between.
 void end_together(double& t, std::initializer_list<double> ends) {
   for (const double end : ends)
     if (std::isfinite(end) && std::abs(end - t) <= least_step * std::abs(end)) t = end;
@@ -55,7 +55,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
       control_(scheme.max_step),
       events_(events_of(system, scheme, contacts_, laws_)),
       turn_ahead_(system) {
-  if (start.y.size() != system.n_y())  // of another model, whose ledger may have other rows
+  if (start.y.size() != system.n_y())  // from another model, with different integrals
     throw std::invalid_argument("a start of " + std::to_string(start.y.size()) + " numbers for a system of " +
                                 std::to_string(system.n_y()));
   start.impact_rate.resize(system.contacts.size(), 0.0);
@@ -83,7 +83,7 @@ bool Integrator::advance(double until) {
   const double t0 = step_.from.state.t, wish = control_.wish(), law = law_end(scheme_, t0, sees_ends_alone());
   const double ahead = std::min({kink_ahead(wish), law - t0, turn_ahead_.time(system_, step_.from.state)});
   if (!step_to(std::min(until - t0, ahead))) return false;
-  if (step_.h == ahead) control_.wish_for(std::max(control_.wish(), wish));  // cut short by a kink or a law, not by an error
+  if (step_.h == ahead) control_.wish_for(std::max(control_.wish(), wish));  // shortened by a kink or a law, not by the error
   end_together(step_.to.state.t, {law, until});
 
   std::optional<EventInStep> event;
@@ -116,7 +116,7 @@ double Integrator::kink_ahead(double wish) const {
   return stepper_->traits().follows_impacts ? events_.kink_ahead(wish) : std::numeric_limits<double>::infinity();
 }
 
-// The last step's end becomes the start of a step, whose length is chosen if it is the first.
+// The last step's end becomes the start of a new step; the length of the first step is chosen here.
 bool Integrator::begin_step(double until) {
   std::swap(step_.from, step_.to);
   step_.struck = false;
@@ -127,7 +127,7 @@ bool Integrator::begin_step(double until) {
   return true;
 }
 
-// A step that begins where a law changes begins after the change.
+// A step that begins at a change of a law begins after the change.
 bool Integrator::pass_law_change() {
   const LawChange* change = change_at(scheme_, step_.from.state.t);
   if (!change) return true;
@@ -138,7 +138,7 @@ bool Integrator::pass_law_change() {
   return stepper_->project(step_.from, eq_) || stop("singular pose where a law of time jumps");
 }
 
-// A hundredth of the time in which the motion changes by itself.
+// A hundredth of the time scale of the motion.
 double Integrator::first_wish(double left) const {
   if (const double fixed = stepper_->traits().fixed_step; fixed > 0) return control_.bounded(fixed);
   const Index n = system_.n();
@@ -147,7 +147,7 @@ double Integrator::first_wish(double left) const {
   return control_.bounded(std::min(h, stepper_->first_step(step_.from, norm_, left)));
 }
 
-// One accepted error-controlled step of at most the length wished for, never past `left`.
+// One accepted error-controlled step of at most the desired length, never past `left`.
 bool Integrator::step_to(double left) {
   const StepperTraits traits = stepper_->traits();
   for (int tries = 0; tries < 60; ++tries) {
@@ -166,7 +166,7 @@ bool Integrator::step_to(double left) {
     } else if (!done) {
       control_.failed(h, least_part());
     } else if (!now.last && !near_singular_ && tries < 3 && (stepper_->near_singular(eq_) || stepper_->strayed_near_singular(step_, eq_))) {
-      control_.wish_for(0.8 * h);  // momentum carries past what no step should start from
+      control_.wish_for(0.8 * h);  // steps over configurations where no step should start
     } else if (const double error = worse(1e-10, norm_.of(step_, traits.follows_impacts)); !(error <= 1)) {
       control_.rejected(h, error, traits.order, least_part());
     } else {
@@ -182,13 +182,13 @@ bool Integrator::step_to(double left) {
   return false;
 }
 
-// Forces that hold what rests are no part of the error, so that at rest laws alone keep steps short.
+// Forces that hold bodies at rest are not part of the error estimate, so at rest only laws limit the steps.
 bool Integrator::sees_ends_alone() const {
   const StepperTraits& traits = stepper_->traits();
   return traits.implicit || (traits.fixed_step == 0 && holds_anything(system_, step_.from.state));
 }
 
-// An implicit step is short, and forces of what is stiff are in balance at its ends alone.
+// Not for implicit steps: they are short, and stiff forces are in balance only at their ends.
 void Integrator::look_inside() {
   held_.forget();
   const StepperTraits& traits = stepper_->traits();
@@ -196,7 +196,7 @@ void Integrator::look_inside() {
   held_.look(system_, *stepper_, step_, dense_);
 }
 
-// Where the dense output of a long step promises an event that true steps do not find, or a step goes too far past one: a shorter step.
+// Where the dense output of a long step shows an event that true steps do not find, or a step passes one too far, a shorter step is tried.
 bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
   for (int halvings = 0;; ++halvings) {
     look_inside();
@@ -222,7 +222,7 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
   }
 }
 
-// At an event the motion starts from where it has come to, with steps as they were when it last was in the same mode.
+// After an event the motion continues from the present state, with the step length that was used when it was last in the same mode.
 bool Integrator::act_on(const EventInStep& event, double wish) {
   ++counts_.events;
   step_.y_before = step_.to.state.y;
@@ -274,7 +274,7 @@ void Integrator::look_at_end() {
   worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
 }
 
-// After a step that no event has ended.
+// Called after a step that no event has ended.
 bool Integrator::switch_method() {
   events_.keep_end();
   if (!switching_.held_by_stability(*stepper_, scheme_, step_)) return true;
@@ -314,7 +314,7 @@ Counts Integrator::counts() const {
   return c;
 }
 
-// Shorter steps end nearer to a singular configuration that a stage has met: no more than a little.
+// Shortening the step brings its end nearer to a singular configuration met by a stage: it is shortened only a little.
 double Integrator::least_part() const { return stepper_->strayed_near_singular(step_, eq_) ? 0.7 : 0.2; }
 
 std::string Integrator::trouble() const { return stepper_->trouble().empty() ? "" : ": " + stepper_->trouble(); }

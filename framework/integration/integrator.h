@@ -19,48 +19,49 @@
 
 namespace pintle {
 
-/// Marches a system in time: adaptive steps of a Stepper, constraints kept, events met, contacts opened and closed. Each call of
+/// Integrates a system in time: adaptive steps of a Stepper, constraints enforced, events located, contacts opened and closed. Each call of
 /// `advance` makes one accepted step, which an event may shorten.
 class Integrator {
  public:
-  /// @pre start meets the constraints nearly; it is projected onto them here, and contacts begun if it overlaps
+  /// @pre start nearly satisfies the constraints; it is projected onto them here, and contacts that overlap are closed
   Integrator(const System&, const Scheme&, State start);
 
-  /// One step towards `until`, ending there at the latest. @returns false when it cannot; see failure(), or need not; see ended()
+  /// One step towards `until`, ending there at the latest. @returns false when it fails, see failure(), or has ended, see ended()
   bool advance(double until);
-  /// Where no step is to follow: the next of the events that have come at the last step's end but would act as the following step begins.
+  /// For when no step follows: acts on the next of the events that have occurred at the last step's end but would act only as the following
+  /// step begins.
   /// @returns false where there is none, or it cannot act; see failure()
   bool act_at_end();
-  /// Between steps: the state is changed here, as by an event. @returns false when it cannot go on from there; see failure()
+  /// Changes the state between steps, as an event would. @returns false when it cannot continue from there; see failure()
   bool change(const std::function<void(State&)>& act);
-  /// Dense output inside the last step or at its end, fully evaluated in `sampled()`. Of an explicit step it is brought
-  /// onto the constraints, of an implicit one, whose a and λ are the scheme's, it is not. Changes nothing of the steps and
-  /// depends on the last one alone, not on what was sampled before. @returns false if it cannot be projected
+  /// Dense output inside the last step or at its end, fully evaluated in `sampled()`. For an explicit step it is projected onto the
+  /// constraints; for an implicit one, whose a and λ are those of the scheme, it is not. Does not affect the steps, and depends only on the
+  /// last one, not on previous samples. @returns false if it cannot be projected
   bool sample(double t, State& out);
-  /// At the state that `sample` gave last. @pre there was one
+  /// The equations at the state that `sample` returned last. @pre there was one
   const Equations& sampled() const { return *sampled_; }
 
   const State& state() const { return step_.to.state; }
-  const Equations& equations() const { return eq_; }  ///< at the present state, while steps succeed
+  const Equations& equations() const { return eq_; }  ///< at the present state, as long as steps succeed
   const Step& last() const { return step_; }
-  const std::vector<Impact>& impacts() const { return contacts_->impacts(); }  ///< in order of beginning
-  const std::vector<Happening>& happenings() const { return happenings_; }     ///< what events of the scene have done
-  bool asks_for_row() const { return row_; }                                   ///< an event at the last step's end does
-  bool asks_for_save() const { return save_; }                                 ///< likewise, of the state
+  const std::vector<Impact>& impacts() const { return contacts_->impacts(); }  ///< in order of their begin
+  const std::vector<Happening>& happenings() const { return happenings_; }     ///< record of the events of the scene
+  bool asks_for_row() const { return row_; }                                   ///< an event at the last step's end requests it
+  bool asks_for_save() const { return save_; }                                 ///< likewise, for saving the state
   const std::string& failure() const { return failure_; }
-  const std::string& ended() const { return ended_; }  ///< an event has ended the integration, and why; else empty
+  const std::string& ended() const { return ended_; }  ///< why an event has ended the integration; otherwise empty
   Counts counts() const;
   double worst_position() const { return worst_position_; }  ///< largest scaled |C| at a step's end
   double worst_velocity() const { return worst_velocity_; }
-  bool implicit() const { return stepper_->traits().implicit; }         ///< now
-  double held_by_stability() const { return switching_.held_share(); }  ///< part of the explicit steps
-  const std::string& switched() const { return switching_.why(); }      ///< when and why another method took over in the run; else empty
+  bool implicit() const { return stepper_->traits().implicit; }         ///< at present
+  double held_by_stability() const { return switching_.held_share(); }  ///< share of the explicit steps
+  const std::string& switched() const { return switching_.why(); }      ///< when and why another method took over; otherwise empty
 
-  /// Everything the following steps depend on, and the impacts and counts so far, as they are to the bit.
-  /// For this System, scheme and program only.
+  /// Everything the following steps depend on, and the impacts and counts so far, exact to the bit. Valid only for this System, scheme and
+  /// program.
   std::string save() const;
-  /// Goes on from there as the integrator saved would have. Afterwards it is as saved or, where it throws, of no use.
-  /// @throws std::invalid_argument saying why it is not what `save` of an integrator of this system made
+  /// Continues exactly as the saved integrator would have. If it throws, the integrator is invalid.
+  /// @throws std::invalid_argument saying why this was not made by `save` of an integrator of this system
   void load(const std::string& saved);
 
  private:
@@ -96,21 +97,21 @@ class Integrator {
   ErrorNorm norm_;
   StepControl control_;
   Switching switching_;
-  ContactEvents* contacts_;  ///< among the events
+  ContactEvents* contacts_;  ///< member of the events
   LawEvents* laws_;          ///< likewise; nullptr: no law has sides
   Events events_;
   TurnAhead turn_ahead_;
-  std::unique_ptr<Equations> sampled_;  ///< from the first sample on
+  std::unique_ptr<Equations> sampled_;  ///< created at the first sample
   Step step_;
-  HeldForces held_;  ///< while events are sought
+  HeldForces held_;  ///< used while searching for events
   State dense_;
   Counts counts_;
   std::vector<Happening> happenings_;
   bool row_ = false, save_ = false;
   std::string failure_, ended_;
   double worst_position_ = 0, worst_velocity_ = 0;
-  double last_tenth_ = 0;       ///< when the last tenth of the steps allowed began [s]
-  bool near_singular_ = false;  ///< the step's start is
+  double last_tenth_ = 0;       ///< when the last tenth of the allowed steps began [s]
+  bool near_singular_ = false;  ///< at the step's start
 };
 
 }  // namespace pintle

@@ -8,9 +8,9 @@ namespace pintle {
 
 namespace {
 
-/// Of a law with these bends, for a method that sees it at the ends of its steps alone.
+/// End of the next step for a law with these bends, for a method that evaluates it only at the ends of its steps.
 double end_within_bend(const std::vector<LawBend>& bends, double t) {
-  constexpr double steps = 6, rest = 0.01;  // a shorter rest of a bend is no step of its own
+  constexpr double steps = 6, rest = 0.01;  // a remainder shorter than this part is not a separate step
   const auto bend = std::upper_bound(bends.begin(), bends.end(), t, [](double x, const LawBend& b) { return x < b.end; });
   if (bend == bends.end()) return std::numeric_limits<double>::infinity();
   if (t < bend->begin) return bend->begin;
@@ -18,7 +18,7 @@ double end_within_bend(const std::vector<LawBend>& bends, double t) {
   return t + (1 + rest) * longest < bend->end ? t + longest : bend->end;
 }
 
-// The first that is more than roundings ahead: an event there may have been met a digit before it.
+// The first change more than rounding ahead: an event at the previous one may have been located one digit before it.
 auto next_change(const Scheme& scheme, double t) {
   constexpr double roundings = 1e-15;
   return std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t + roundings * std::abs(t),

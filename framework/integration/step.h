@@ -8,13 +8,13 @@
 
 namespace pintle {
 
-/// What an implicit scheme knows at a node besides the state; empty for an explicit one.
+/// Data of an implicit scheme at a node besides the state; empty for an explicit one.
 struct Memory {
-  double h = 0;                           ///< of the step that led here; 0: a start, nothing before it counts [s]
+  double h = 0;                           ///< of the step to this node; 0: a start, without history [s]
   Eigen::VectorXd a;                      ///< the scheme's own accelerations, and rates of internal states
   Eigen::VectorXd lambda, lambda_before;  ///< multipliers here and a step earlier
   Eigen::VectorXd dy_before;              ///< derivative a step earlier
-  Eigen::VectorXd F, P;                   ///< f − Cqᵀλ, and M v̇, which Newton leaves a little apart
+  Eigen::VectorXd F, P;                   ///< f − Cqᵀλ, and M v̇, which differ by Newton's remaining error
   template <class A>
   void archive(A& x) {
     x(PINTLE_MEMBERS(h, a, lambda, lambda_before, dy_before, F, P));
@@ -32,19 +32,19 @@ struct Instant {
   }
 };
 
-/// From one accepted node to a trial one, with what dense output and error control need.
+/// From an accepted node to a trial one, with the data for dense output and error control.
 struct Step {
   Instant from, to;
   double h = 0;                   ///< [s]
   Eigen::VectorXd error;          ///< of the lower-order solution, as y
-  bool struck = false;            ///< an event at its end has made forces or the state jump …
-  Eigen::VectorXd y_before = {};  ///< … from these, which end the step's dense output
+  bool struck = false;            ///< an event at its end made forces or the state jump …
+  Eigen::VectorXd y_before = {};  ///< … from these values, which end the step's dense output
   Eigen::VectorXd dy_before = {};
   const Eigen::VectorXd& y_end() const { return struck ? y_before : to.state.y; }
   const Eigen::VectorXd& dy_end() const { return struck ? dy_before : to.dy; }
 };
 
 inline constexpr double short_part =
-    1e-3;  ///< of a step: in less, an implicit one shows the rounding of speeds in accelerations and multipliers
+    1e-3;  ///< relative to a step: in shorter ones, accelerations and multipliers of an implicit scheme show the rounding of speeds
 
 }  // namespace pintle

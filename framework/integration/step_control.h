@@ -13,20 +13,20 @@ class StepControl {
  public:
   explicit StepControl(double max_step) : max_step_(max_step) {}
 
-  /// The next step's length if nothing cuts it short; 0: to be chosen [s].
+  /// The next step's length if nothing shortens it; 0: not chosen yet [s].
   double wish() const { return h_; }
   void wish_for(double h) { h_ = h; }
   double bounded(double h) const { return h < max_step_ ? h : max_step_; }
-  /// The errors of steps before tell nothing of the next one's.
+  /// Discards the error history where it no longer applies.
   void forget_errors() { error_before_ = 1; }
 
   struct Try {
     double h;
-    bool last;  ///< ends at the bound, and may be shorter than accuracy asks for
+    bool last;  ///< ends at the bound, and may be shorter than accuracy requires
   };
-  /// A step of at most `left`, with no rest after it that is too short to be a step.
+  /// A step of at most `left` that leaves no remainder too short to be a step.
   Try next(double left) const;
-  /// @param least_part  of h that the next try has at the least
+  /// @param least_part  least part of h for the next try
   void failed(double h, double least_part) { h_ = h * std::max(0.25, least_part); }
   void rejected(double h, double error, int order, double least_part);
   void accepted(const Try&, double error, const StepperTraits&);

@@ -16,18 +16,18 @@ namespace pintle {
 class Reader;
 class Writer;
 
-/// What the control of the step needs to know of a method.
+/// Properties of a method that step control needs.
 struct StepperTraits {
-  int order;  ///< of the error that it estimates in the step h: hᵖ
+  int order;  ///< of the error that it estimates for the step h: hᵖ
   bool implicit;
-  bool follows_impacts;                       ///< its steps follow the force of a contact closely: they end where that has a kink
+  bool follows_impacts;                       ///< its steps resolve the force of a contact: they end where that has a kink
   bool ends_evaluated;                        ///< `attempt` leaves contacts evaluated at the step's end
-  double fixed_step = 0;                      ///< the length of its steps; 0: the error chooses it [s]
-  double least_change = 1, least_growth = 1;  ///< a next step between these parts of the last is not worth another factorization
+  double fixed_step = 0;                      ///< the length of its steps; 0: chosen by the error [s]
+  double least_change = 1, least_growth = 1;  ///< a next step between these ratios to the last is not worth another factorization
 };
 
-/// A method of time integration as the integrator sees it: it makes steps and reads the motion inside them. It knows nothing of
-/// error control, events or switching. Chosen once, by make_stepper.
+/// A method of time integration as seen by the integrator: it makes steps and samples the motion inside them. It is independent of error
+/// control, events and switching. Chosen once, by make_stepper.
 class Stepper {
  public:
   virtual ~Stepper() = default;
@@ -35,11 +35,11 @@ class Stepper {
   virtual std::string_view name() const = 0;
   virtual const StepperTraits& traits() const = 0;
 
-  /// Projects a node onto the constraints and evaluates it: a start, what the method remembers of steps before is dropped.
-  /// @returns false at a singular configuration
+  /// Projects a node onto the constraints and evaluates it: a start, so the method discards its memory of earlier steps.
+  /// @returns false in a singular configuration
   virtual bool project(Instant&, Equations&) = 0;
   /// Fills step.to and step.error from step.from and h; step.from is never changed.
-  /// @returns false where it cannot; see trouble()
+  /// @returns false where it fails; see trouble()
   virtual bool attempt(double h, const ErrorNorm&, Step&, Equations&) = 0;
   /// The step was accepted; its end is in the equations.
   virtual void accept(Equations&) = 0;
@@ -48,11 +48,11 @@ class Stepper {
 
   /// Dense output of an attempted step, not projected onto the constraints.
   virtual void interpolate(const Step&, double t, State& out) const = 0;
-  /// The motion at t in the last accepted step, fully evaluated in the equations given, which are not those of the steps. Depends on
-  /// the step alone and changes nothing of the next ones. @returns false if it cannot be evaluated
+  /// The motion at t in the last accepted step, fully evaluated in the given equations, which are not those of the steps. Depends only on
+  /// the step and does not affect later ones. @returns false if it cannot be evaluated
   virtual bool sample(const Step&, double t, Equations&, State& out) = 0;
 
-  /// A stage of the last attempt stood near a singular configuration.
+  /// A stage of the last attempt was near a singular configuration.
   virtual bool passed_near_singular() const = 0;
   /// The equations are so near a singular configuration that no step should end there.
   virtual bool near_singular(const Equations&) const = 0;
@@ -63,22 +63,22 @@ class Stepper {
   virtual std::string trouble() const = 0;
   virtual int partitions() const = 0;
 
-  /// What the next steps depend on besides the nodes.
+  /// The data besides the nodes that the next steps depend on.
   virtual void save(Writer&) const = 0;
   virtual void load(Reader&) = 0;
-  /// What was loaded fits the system and this node.
+  /// The loaded data fit the system and this node.
   virtual bool fits(const Instant&) const = 0;
-  /// Evaluates the last step's end as the steps left it.
+  /// Evaluates the last step's end as the steps did.
   virtual void evaluate_end(const Step&, Equations&) = 0;
 };
 
-/// As scene files call it, with the settings of the scheme. @returns nullptr if there is none of that name
+/// Name as in scene files, with the settings of the scheme. @returns nullptr if there is none of that name
 std::unique_ptr<Stepper> make_stepper(std::string_view name, const System&, const Scheme&, const Equations&);
 
-/// Of what is held at most, how well forces that hold are known inside a step of this tolerance.
+/// Accuracy of holding forces inside a step of this tolerance, relative to the most that can be held.
 inline double known_inside(double tolerance) { return std::max(1e-6, 100 * tolerance); }
 
-/// A step's motion for those who look inside it.
+/// A step's motion, for code that looks inside it.
 class DenseOutput {
  public:
   DenseOutput(const Stepper& stepper, const Step& step, const HeldForces& held, State& work)
@@ -88,7 +88,7 @@ class DenseOutput {
     if (held_.known()) held_.put(step_, t, work_.friction);
     return work_;
   }
-  /// What holds friction and closed rigid contacts is known inside the step too, not at its ends alone.
+  /// Forces of sticking friction and closed rigid contacts are known inside the step too, not only at its ends.
   bool knows_held_forces() const { return held_.known(); }
 
  private:

@@ -7,19 +7,19 @@
 
 namespace pintle {
 
-/// When another method takes over for good, and why.
+/// When another method takes over permanently, and why.
 class Switching {
  public:
-  /// Stages of a pair of high order stray far from the motion, too far where branches meet: the scheme's fallback takes over.
+  /// Stages of a pair of high order deviate far from the motion, too far near branching points: the scheme's fallback takes over.
   bool falls_back(const Stepper&, const Scheme&, double t);
-  /// An explicit pair whose accepted steps lie at the edge of its stability, one after another, is held by stability rather than
-  /// accuracy: an implicit method takes over. Where none may, they are counted.
+  /// An explicit pair whose accepted steps are repeatedly at its stability limit is limited by stability rather than accuracy: an implicit
+  /// method takes over. Where switching is not allowed, such steps are counted.
   bool held_by_stability(const Stepper&, const Scheme&, const Step&);
-  /// A saved run goes on with the method that it had.
+  /// A saved run continues with its method.
   void goes_on_with(const std::string& method);
 
-  const std::string& why() const { return why_; }  ///< when and why it happened; else empty
-  /// The part of the explicit steps that stability held, of those that were looked at; 0 of too few.
+  const std::string& why() const { return why_; }  ///< when and why it happened; otherwise empty
+  /// The share of the examined explicit steps that stability limited; 0 if too few.
   double held_share() const { return looked_at_ < few ? 0 : static_cast<double>(at_limit_) / static_cast<double>(looked_at_); }
 
   template <class A>
@@ -31,8 +31,8 @@ class Switching {
   static constexpr long few = 64;
 
   bool fallen_back_ = false;
-  int held_ = 0;                                   ///< steps, less those that were not
-  long steps_ = 0, looked_at_ = 0, at_limit_ = 0;  ///< explicit, too long to switch by
+  int held_ = 0;                                   ///< number of steps limited by stability minus those that were not
+  long steps_ = 0, looked_at_ = 0, at_limit_ = 0;  ///< explicit steps; examined; limited
   std::string why_;
 };
 

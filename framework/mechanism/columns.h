@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// A table's columns in one list: a function template that calls `out` for each group of columns names them if `out` is a
-/// Heading, and appends their values if it is a ValueRow. Neither knows what a column means.
+/// A table's columns in one list: a function template that calls `out` for each group of columns names them if `out` is a Heading, and
+/// appends their values if it is a ValueRow. Neither depends on what a column means.
 namespace pintle {
 
 struct Column {
@@ -13,7 +13,7 @@ struct Column {
 };
 inline constexpr auto no_suffix = [] { return std::string(); };
 
-/// out(owner, columns, values, suffix): "owner.name suffix [unit]" each.
+/// Each call out(owner, columns, values, suffix) adds "owner.name suffix [unit]".
 struct Heading {
   std::vector<std::string>& header;
 

@@ -46,7 +46,7 @@ std::vector<Vector2d> convex_hull(std::vector<Vector2d> p) {
   return hull;
 }
 
-// A link's outline: the hull of its points, `width` wider all round, with round corners.
+// A link's outline: the convex hull of its points, offset by `width`, with round corners.
 std::vector<Vector2d> outline(const std::vector<Vector2d>& points, double width) {
   std::vector<Vector2d> cloud;
   for (const Vector2d& p : points)
@@ -75,7 +75,7 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
   deformation = scene.output.deformation;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     owners.push_back(system.bodies[b].name);
-    if (system.bodies[b].flex) {  // drawn as it is
+    if (system.bodies[b].flex) {  // drawn as it is meshed
       links.emplace_back();
       continue;
     }
@@ -85,12 +85,12 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
       continue;
     }
     std::vector<Vector2d> points = model.outlines[b];
-    if (!points.empty()) points.emplace_back(0, 0);  // a link reaches to its mass centre
+    if (!points.empty()) points.emplace_back(0, 0);  // a link includes its mass centre
     double span = 0;
     for (const Vector2d& p : points) span = std::max(span, (p - points[0]).norm());
     if (span > 0) {
       links.push_back(outline(points, width));
-    } else {  // a body known by one point: a block around it
+    } else {  // a body with a single point: a block around it
       auto box = block(2 * half, 1.4 * half);
       const Vector2d center = model.outlines[b].empty() ? Vector2d(0, 0) : model.outlines[b][0];
       for (Vector2d& p : box) p += center;
@@ -127,7 +127,7 @@ void draw_clearances(const System& system, const Drafting& drafting, const Equat
   }
 }
 
-// Surfaces, and what each pair that touches does to b.
+// Surfaces, and the force on b of each pair that touches.
 void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
   const System& system = model.system;
   const int first = static_cast<int>(system.bodies.size() + system.joints.size()), of_ground = static_cast<int>(out.owners.size()) - 1;
@@ -178,11 +178,11 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
     out.lines.push_back(std::move(line));
   }
   for (int joint = 0; joint < joints; ++joint) {
-    if (is_link(system, joint)) continue;  // its clearance is drawn
+    if (is_link(system, joint)) continue;  // drawn as its clearance
     const JointEnds ends = ends_of(system.joints[at(joint)]);
     const MarkerMotion &a = eq.motion[at(ends.marker[0])], &b = eq.motion[at(ends.marker[1])];
     const auto pin = [&] { out.lines.push_back({Part::joint, bodies + joint, true, circle(b.r, 0.6 * drafting.pin)}); };
-    const auto guide = [&] {  // a stretch of the line
+    const auto guide = [&] {  // a segment of the line
       const Vector2d foot = a.r + a.u * a.u.dot(b.r - a.r);
       out.lines.push_back({Part::guide, bodies + joint, false, {foot - 0.5 * system.length * a.u, foot + 0.5 * system.length * a.u}});
     };

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// What does not change between frames: outlines in body axes, the exaggeration of clearances.
+/// Data that are the same in all frames: outlines in body axes, the exaggeration of clearances.
 struct Drafting {
   Drafting(const Scene&, const Model&);
   std::vector<std::string> owners;                  ///< as in Drawing

@@ -31,13 +31,13 @@ FirstOwners::FirstOwners(const System& s)
 
 namespace {
 
-/// Short strokes on the left of a line, where the ground is; those alone that `near` says are worth it.
+/// Short strokes to the left of a line, where the ground is; only those for which `near` is true.
 template <class Near>
 void hatch(const Vector2d& from, const Vector2d& to, double spacing, int owner, const Near& near, Drawing& out) {
   const double length = (to - from).norm();
   if (!(length > 0)) return;
   const Vector2d u = (to - from) / length, stroke = 0.6 * spacing * (turned_left(u) - u);
-  constexpr double most = 1e6;  // of strokes that are looked at
+  constexpr double most = 1e6;  // number of strokes examined
   for (double s = 0.5 * spacing; s < std::min(length, most * spacing); s += spacing) {
     const Vector2d foot = from + s * u;
     if (near(foot)) out.lines.push_back({Part::hatch, owner, false, {foot, foot + stroke}});
@@ -46,7 +46,7 @@ void hatch(const Vector2d& from, const Vector2d& to, double spacing, int owner, 
 
 constexpr auto everywhere = [](const Vector2d&) { return true; };
 
-/// A triangle that stands on the ground below a pin.
+/// A triangle standing on the ground below a pin.
 void draw_support(const Vector2d& pin, double size, int owner, Drawing& out) {
   const Vector2d left = pin + Vector2d(-size, -1.6 * size), right = pin + Vector2d(size, -1.6 * size), beyond(0.6 * size, 0);
   out.lines.push_back({Part::hatch, owner, true, {pin, left, right}});
@@ -137,7 +137,7 @@ void draw_bars(const Model& model, const Equations& eq, Drawing& out) {
 
 namespace {
 
-/// A barrel from a, a rod from b into it.
+/// A barrel at a, and a rod from b into it.
 void draw_cylinder(const Vector2d& a, const Vector2d& b, double half_width, int owner, Drawing& out) {
   const Vector2d d = b - a;
   if (!(d.norm() > 0)) return;
@@ -159,7 +159,7 @@ void draw_coil(const Vector2d& a, const Vector2d& b, double width, int owner, Dr
   out.lines.push_back(std::move(line));
 }
 
-/// Two turns about b, from the one body's direction to the other's.
+/// Two turns around b, from the direction of one body to that of the other.
 void draw_spiral(const MarkerMotion& a, const MarkerMotion& b, double radius, int owner, Drawing& out) {
   constexpr int points = 65;
   DrawnLine line{Part::spring, owner, false, {}};
@@ -212,7 +212,7 @@ void draw_reactions_and_loads(const System& system, const Equations& eq, Drawing
   };
   if (eq.lambda.size() == system.n_rows())
     for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
-      if (is_link(system, k)) continue;  // its clearance has the force
+      if (is_link(system, k)) continue;  // its clearance shows the force
       const JointEnds ends = ends_of(system.joints[at(k)]);
       const int marker = ends.marker[on_ground(system, ends.marker[1]) ? 0 : 1];
       add(eq.motion[at(marker)].r, joint_wrench(system, eq, k), first.joint + k, Giver::joint);
@@ -235,7 +235,7 @@ void follow_points(const Model& model, const State& state, const Equations& eq, 
     if (const Eigen::Index n = p.marker.shape.cols(); n > 0) x += p.marker.shape * state.y.segment(system.eta_begin[at(p.marker.body)], n);
     out.followed.push_back({p.name, Vector2d(q[0], q[1]) + Eigen::Rotation2Dd(q[2]) * x});
   }
-  constexpr std::size_t most_pins = 12;  // the paths of more would hide the mechanism
+  constexpr std::size_t most_pins = 12;  // with more, their paths would hide the mechanism
   if (model.points.empty() && system.joints.size() <= 2 * most_pins)
     for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
       if (is_link(system, k) || properties_of(system.joints[at(k)]).symbol != JointSymbol::pin) continue;

@@ -10,17 +10,17 @@ struct FirstOwners {
   int joint, contact, force, of_ground;
 };
 
-/// Supports under pins that the ground holds, and strokes along its guides and surfaces where these are near the mechanism.
+/// Supports under pins on the ground, and strokes along its guides and surfaces near the mechanism.
 void draw_ground(const Model&, const Drafting&, const Equations&, Drawing&);
 
-/// What holds the surfaces of a body together: bars from its first joint to the others and to the middle of each surface.
+/// Connections between the surfaces of a body: bars from its first joint to the others and to the middle of each surface.
 void draw_bars(const Model&, const Equations&, Drawing&);
 
-/// Drivers of a length and forces along their line as barrel and rod, springs as coils, of angles as spirals.
+/// Length drivers and forces along their line as barrel and rod, springs as coils, angular ones as spirals.
 struct DrawnActuator {
   enum Kind { cylinder, coil, spiral } kind;
-  int a, b, owner;  ///< markers; into Drawing::owners
-  double width;     ///< of a cylinder half of it, of a spiral its inner radius [m]
+  int a, b, owner;  ///< markers; index into Drawing::owners
+  double width;     ///< of a cylinder half its width, of a spiral its inner radius [m]
 };
 std::vector<DrawnActuator> actuators_of(const System&, const Drafting&);
 void draw_actuators(const System&, const Drafting&, const Equations&, Drawing&);
@@ -28,7 +28,7 @@ void draw_actuators(const System&, const Drafting&, const Equations&, Drawing&);
 /// Forces and couples of joints, springs and loads, each on the body that its columns name. Contacts draw their own.
 void draw_reactions_and_loads(const System&, const Equations&, Drawing&);
 
-/// The points of `output.points`, or where there are none the pins that move; and where each contact touches.
+/// The points of `output.points`, or if there are none the moving pins; and the point of each contact.
 void follow_points(const Model&, const State&, const Equations&, Drawing&);
 
 }  // namespace pintle

@@ -49,7 +49,7 @@ void draw_wheel(const MarkerMotion& m, const DrawnWheels::Wheel& wheel, bool tur
 }
 
 void draw_span(const MarkerMotion& a, const MarkerMotion& b, const DrawnWheels::Span& span, Drawing& out) {
-  constexpr double touching = 1e-2;  // of a radius
+  constexpr double touching = 1e-2;  // relative to a radius
   const Vector2d d = b.r - a.r;
   const double delta = span.radius_b - span.radius_a;
   if (!(d.norm() - std::abs(delta) >= touching * std::abs(span.radius_a))) return;

@@ -4,23 +4,23 @@
 
 namespace pintle {
 
-/// What of a mechanism goes round or along something that does, by its markers; pictures and pages place it by their motion.
+/// Wheels, and the belts and racks along them, by their markers; pictures and pages place them by the motion of these.
 struct DrawnWheels {
-  /// A pitch circle, a pulley or a disc that rolls, with a spoke that turns with it where it is not the ground's.
+  /// A pitch circle, a pulley or a rolling disc, with a spoke that shows its rotation unless it belongs to the ground.
   struct Wheel {
     int marker;
     double radius;  ///< > 0 [m]
     Part part;
-    int owner;  ///< into Drawing::owners
+    int owner;  ///< index into Drawing::owners
   };
-  /// A belt between two pulleys, radii > 0 where it goes round counter-clockwise; nothing where they touch, as gears do.
+  /// A belt between two pulleys, with radii > 0 where it runs counter-clockwise; nothing where the circles touch, as for gears.
   struct Span {
     int a, b;
     double radius_a, radius_b;
     Part part;
     int owner;
   };
-  /// A rack, or what a disc rolls on: the line through a along its direction, near b.
+  /// A rack, or the line that a disc rolls on: through a along its direction, near b.
   struct Line {
     int a, b, owner;
   };
@@ -30,7 +30,7 @@ struct DrawnWheels {
 };
 DrawnWheels wheels_of(const System&);
 
-/// The same at an instant. @pre eq has the motion
+/// Draws them at an instant. @pre eq has the motion
 void draw_wheels(const System&, const Equations& eq, Drawing&);
 
 }  // namespace pintle

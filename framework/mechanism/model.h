@@ -13,7 +13,7 @@
 
 namespace pintle {
 
-/// Overlap, over the journal's radius, beyond which no contact law of ours means anything.
+/// Overlap relative to the journal's radius beyond which no contact law here is valid.
 inline constexpr double too_deep = 0.1;
 
 /// A point whose motion is recorded.
@@ -28,33 +28,32 @@ struct RecordedStress {
   StressProbe probe;
 };
 
-/// A number that is worked out for each row of the trajectory.
+/// A number computed for each row of the trajectory.
 struct WrittenOutput {
   struct Input {
     enum From { signal, column, output } from;
-    int index;  ///< into System::signals, the trajectory's columns, Model::outputs
+    int index;  ///< index into System::signals, the trajectory's columns or Model::outputs
   };
   std::string name, unit;
   SignalFunction of;
   std::vector<Input> in;
 };
 
-/// A profile as it is drawn.
+/// A profile for drawing.
 struct DrawnProfile {
   int marker, body;                     ///< the marker that carries it
   bool solid;                           ///< the material is inside a closed line
   std::vector<Eigen::Vector2d> points;  ///< in the marker's axes [m]
 };
 
-/// What stays of the rigid run that modes and doubts were judged by.
+/// Summary of the preliminary run with which modes were chosen and warnings derived.
 struct PreliminaryRun {
-  double until = 0, seconds = 0;  ///< reached, and of computing [s]
+  double until = 0, seconds = 0;  ///< time reached, and computing time [s]
   long steps = 0;
   std::string trouble;  ///< why there was none, or why it ended early
 };
 
-/// A scene made ready to run. Nothing here is of finite-element size but `drawings`, which there are only
-/// if frames are asked for.
+/// A scene prepared to run. Only `drawings` have the size of the finite-element models, and they exist only if frames are requested.
 struct Model {
   System system;
   Scheme scheme;
@@ -63,17 +62,17 @@ struct Model {
   std::vector<WrittenOutput> outputs;
   std::vector<FlexibleDrawing> drawings;               ///< of flexible bodies, in their order
   std::vector<std::string> clearances;                 ///< how each is modelled, in words
-  std::vector<std::string> contacts;                   ///< of profiles, likewise
-  std::vector<DrawnProfile> profiles;                  ///< those that contacts use
-  std::vector<std::string> warnings;                   ///< what makes the model doubtful, in words
+  std::vector<std::string> contacts;                   ///< how each contact of profiles is modelled
+  std::vector<DrawnProfile> profiles;                  ///< those used by contacts
+  std::vector<std::string> warnings;                   ///< why the model is doubtful, in words
   std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< points of each body, named or joined, for drawing [m]
   std::vector<FlexibleReport> flexible;                ///< of flexible bodies, in their order
   std::vector<BendingProbe> bending;                   ///< likewise
   std::vector<StiffeningProbe> stiffening;             ///< likewise
-  std::vector<std::pair<int, Eigen::VectorXd>> bent;   ///< bodies that start bent, and their modal coordinates
+  std::vector<std::pair<int, Eigen::VectorXd>> bent;   ///< bodies that start deformed, and their modal coordinates
   std::vector<Attachment> attachments;                 ///< on flexible bodies
   BuiltOrder order;
-  std::optional<PreliminaryRun> preliminary_run;  ///< the rigid run, if there was one
+  std::optional<PreliminaryRun> preliminary_run;  ///< if there was one
 };
 
 }  // namespace pintle

@@ -7,16 +7,16 @@
 
 namespace pintle {
 
-/// A law that names columns of trajectory.csv or outputs: in any state worked out from the row that would be written of it, for which
-/// the equations of motion are solved. What it is copied to has scratch of its own.
+/// A law that names columns of trajectory.csv or outputs: in any state it is computed from the row that would be written, for which the
+/// equations of motion are solved. Copies have their own scratch.
 class RowLaw {
  public:
-  /// @param of  complete before the first call
+  /// @param of  must be complete before the first call
   RowLaw(std::shared_ptr<const Model> of, WrittenOutput law) : of_(std::move(of)), law_(std::move(law)) {}
   RowLaw(const RowLaw& other) : of_(other.of_), law_(other.law_) {}
   RowLaw& operator=(const RowLaw&) = delete;
 
-  /// NaN where there are no accelerations.
+  /// NaN where the accelerations cannot be computed.
   double operator()(const State&) const;
   std::vector<double> inputs(const State&) const;
   const SignalFunction& function() const { return law_.of; }
@@ -30,7 +30,7 @@ class RowLaw {
   };
   std::shared_ptr<const Model> of_;
   WrittenOutput law_;
-  mutable std::unique_ptr<Work> work_;  ///< from the first call on
+  mutable std::unique_ptr<Work> work_;  ///< created at the first call
 };
 
 }  // namespace pintle

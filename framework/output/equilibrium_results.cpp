@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Rates and accelerations, which are zero, are left out.
+/// Rates and accelerations are zero and omitted.
 bool is_rate(const std::string& column) {
   for (const char* unit : {"[m/s]", "[rad/s]", "[m/s^2]", "[rad/s^2]"})
     if (column.ends_with(unit)) return true;

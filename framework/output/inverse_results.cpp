@@ -1,4 +1,4 @@
-// What kinematics and inverse dynamics write.
+// Results of kinematics and inverse dynamics.
 #include <cmath>
 
 #include <nlohmann/json.hpp>

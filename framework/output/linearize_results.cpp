@@ -24,7 +24,7 @@ const char* coefficients_text(Coefficients c) {
   return "";
 }
 
-/// Numbers as fields of a row, after a first field of text.
+/// Appends a text field followed by numbers as a row.
 void append_row(std::string& out, const std::string& name, const Eigen::VectorXd& values) {
   out += csv_field(name);
   for (const double x : values) {

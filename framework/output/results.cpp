@@ -122,7 +122,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
       out["restitution"] = p.rigid->restitution;
     } else if (!is_held(p)) {
       for (const auto& [name, value] : constants_of(p.normal)) out[name] = value;
-      if (!begins_with_jump(p.normal)) out["restitution delivered"] = restitution_of(p.normal, 1);  // to any mass
+      if (!begins_with_jump(p.normal)) out["restitution delivered"] = restitution_of(p.normal, 1);  // for any mass
     }
     if (p.profiles) {
       out["pairs of pieces"] = p.pairs;

@@ -14,9 +14,9 @@ namespace pintle {
 /// @throws std::runtime_error  naming the path that cannot be written
 void write_results(const std::filesystem::path& directory, const Scene&, const Model&, const Assembly&, const Run&);
 
-/// What run.json holds, as text.
+/// The contents of run.json, as text.
 std::string run_json(const Scene&, const Model&, const Assembly&, const Run&);
-/// What `pintle check --json` prints.
+/// The output of `pintle check --json`.
 std::string check_json(const Scene&, const Model&, const Assembly&, const CostEstimate&);
 
 }  // namespace pintle

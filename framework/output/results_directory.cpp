@@ -28,7 +28,7 @@ void require_new(const fs::path& directory) {
 void require_short_names(const fs::path& directory) {
   for (const fs::path& part : directory)
     if (part.native().size() > NAME_MAX) throw FileError(directory, ENAMETOOLONG, "cannot be made");
-  constexpr std::size_t inside = 300;  // what the longest path in it adds
+  constexpr std::size_t inside = 300;  // added by the longest path in it
   if (directory.native().size() + inside > PATH_MAX) throw FileError(directory, ENAMETOOLONG, "cannot be made");
 }
 
@@ -54,7 +54,7 @@ std::vector<fs::path> leftovers(const fs::path& directory) {
   try {
     for (const std::string& name : names_in(parent))
       if (name.starts_with(begins)) out.push_back(parent / name);
-  } catch (const FileError&) {  // not there yet, or not to be read
+  } catch (const FileError&) {  // does not exist yet, or is not readable
   }
   std::ranges::sort(out);
   return out;
@@ -70,7 +70,7 @@ std::optional<double> time_of_last_row(const fs::path& folder) {
   const auto end = text.rfind('\n');
   if (end == std::string::npos || end == 0) return {};
   const auto begin = text.rfind('\n', end - 1);
-  if (begin == std::string::npos) return {};  // nothing but the heading
+  if (begin == std::string::npos) return {};  // only the heading
   double t = 0;
   const auto [stop, error] = std::from_chars(text.data() + begin + 1, text.data() + end, t);
   return error == std::errc() && *stop == ',' ? std::optional(t) : std::nullopt;
@@ -105,7 +105,7 @@ ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_s
 
 ResultsDirectory::~ResultsDirectory() {
   if (committed_) return;
-  ::rmdir(frames_.c_str());  // an empty one only, without asking for memory
+  ::rmdir(frames_.c_str());  // only if empty, without allocating memory
   ::rmdir(staging_.c_str());
 }
 

@@ -7,17 +7,17 @@
 
 namespace pintle {
 
-/// A directory that is filled beside its final place, as DIR.part-XXXXXX with letters that no other has, and moved there whole
-/// by `commit`. What was written stays where it is if that never happens; an empty one goes.
+/// A directory filled next to its final place, as DIR.part-XXXXXX with unique letters, and renamed as a whole by `commit`. If that never
+/// happens, the results stay where they are; an empty one is removed.
 class ResultsDirectory {
  public:
-  /// @throws FileError  `directory` exists or cannot be made
+  /// @throws FileError  `directory` exists or cannot be created
   explicit ResultsDirectory(const std::filesystem::path& directory);
   ~ResultsDirectory();
   ResultsDirectory(const ResultsDirectory&) = delete;
-  const std::filesystem::path& path() const { return staging_; }  ///< where to write meanwhile
+  const std::filesystem::path& path() const { return staging_; }  ///< where to write before that
   bool holds_files() const;
-  /// Puts all on the disk, then moves it. @throws FileError  naming where the results are
+  /// Syncs everything to disk, then renames it. @throws FileError  naming where the results are
   void commit();
 
  private:
@@ -28,16 +28,16 @@ class ResultsDirectory {
 /// The path without a slash at its end.
 std::filesystem::path without_slash(const std::filesystem::path&);
 
-/// What runs that were ended, or still go, left beside a results directory.
+/// Leftovers of aborted or unfinished runs next to a results directory.
 std::vector<std::filesystem::path> leftovers(const std::filesystem::path& directory);
 
-/// The time of the last whole row of its trajectory.csv: how far a run that was killed had come, to about a second of its work.
+/// The time of the last complete row of its trajectory.csv: how far a killed run had come, to about a second of its work.
 std::optional<double> time_of_last_row(const std::filesystem::path& folder);
 
-/// The folder in which it will be made, or the nearest one above.
+/// The folder in which it will be created, or the nearest existing one above.
 std::filesystem::path nearest_that_exists(const std::filesystem::path& directory);
 
-/// Whether results can be written there, tried before anything is computed. @throws FileError
+/// Checks, before anything is computed, whether results can be written there. @throws FileError
 void require_writable(const std::filesystem::path& directory);
 
 }  // namespace pintle

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Three digits, rounded up of what is needed, down of what is there.
+/// Three digits; the space needed is rounded up, the available space down.
 std::string size_text(double bytes, double (*round)(double)) {
   static constexpr const char* units[] = {" bytes", " kB", " MB", " GB", " TB"};
   std::size_t unit = 0;

@@ -111,7 +111,7 @@ ReservedRoom::ReservedRoom(fs::path file, std::size_t bytes) : file_(std::move(f
   if (made < 0) throw FileError(file_, errno);
   const int error = ::posix_fallocate(made, 0, static_cast<off_t>(bytes));
   ::close(made);
-  if (error != ENOSPC && error != EDQUOT && error != EFBIG) return;  // else the file system cannot, or has
+  if (error != ENOSPC && error != EDQUOT && error != EFBIG) return;  // otherwise the file system does not support it, or it succeeded
   ::unlink(file_.c_str());
   throw FileError(file_, error);
 }

@@ -10,16 +10,16 @@
 
 namespace pintle {
 
-/// trajectory.csv, ledger.csv and events.csv of a run, written while it goes on.
+/// trajectory.csv, ledger.csv and events.csv of a run, written during the run.
 class RunFiles {
  public:
   /// @throws FileError
   RunFiles(const std::filesystem::path& directory, const Model&);
-  /// All rows of the tables, and the impacts that have ended since. @throws FileError
+  /// Adds all rows of the tables, and the impacts that have ended since. @throws FileError
   void add(const Table& trajectory, const Table& ledger, const std::vector<Impact>&);
-  /// Puts what is in buffers on the disk. @throws FileError
+  /// Writes buffers to disk. @throws FileError
   void flush();
-  /// The impacts that go on, and what is in buffers. @throws FileError  the first of the three; all are closed
+  /// Writes the impacts still going on and the buffers. @throws FileError  the first of the three; all are closed
   void finish(const std::vector<Impact>&);
 
  private:
@@ -28,17 +28,17 @@ class RunFiles {
 
   const System& system_;
   FileWriter trajectory_, ledger_, events_;
-  std::size_t impacts_ = 0;  ///< written
+  std::size_t impacts_ = 0;  ///< number written
   std::string row_;
 };
 
-/// actions.csv: what the events of a scene have done, a row each; none of a scene without events. @throws FileError
+/// actions.csv: the actions of the events of a scene, one row each; not written for a scene without events. @throws FileError
 void write_actions(const std::filesystem::path& directory, const Scene&, const Run&);
 
-/// Room on the disk that is kept for later, as a file that goes when it is wanted.
+/// Disk space reserved for later, as a file that is deleted when the space is needed.
 class ReservedRoom {
  public:
-  /// @throws FileError  there is not so much
+  /// @throws FileError  there is not enough space
   ReservedRoom(std::filesystem::path file, std::size_t bytes);
   ~ReservedRoom() { release(); }
   ReservedRoom(const ReservedRoom&) = delete;

@@ -7,13 +7,13 @@
 
 namespace pintle {
 
-/// The scene as it was filled in; null if it was made in C++.
+/// The scene with all defaults filled in; null if it was made in C++.
 inline nlohmann::ordered_json scene_json(const Scene& scene) {
   if (scene.filled_in.empty()) return nullptr;
   return nlohmann::ordered_json::parse(scene.filled_in, nullptr, false);
 }
 
-/// What every description of a run begins with.
+/// The beginning of every description of a run.
 nlohmann::ordered_json run_head(const Scene&, const Run&);
 
 }  // namespace pintle

@@ -30,7 +30,7 @@ double tick_step(double span) {
   return 10 * power;
 }
 
-// Douglas and Peucker: keeps what differs from a straight line by more than a quarter of a pixel.
+// Douglas and Peucker: keeps points more than a quarter of a pixel from a straight line.
 void thin(const std::vector<double>& x, const std::vector<double>& y, std::size_t a, std::size_t b, std::vector<bool>& keep) {
   double far = 0.25;
   std::size_t at = 0;
@@ -45,7 +45,7 @@ void thin(const std::vector<double>& x, const std::vector<double>& y, std::size_
   thin(x, y, at, b, keep);
 }
 
-/// A panel's axes: their ranges, and where on the picture the panel begins.
+/// A panel's axes: their ranges, and the position of the panel in the picture.
 struct Axes {
   double x0, x1, y0, y1;
   double x_at, y_at;
@@ -53,7 +53,7 @@ struct Axes {
   double py(double y) const { return y_at + top + (y1 - y) / (y1 - y0) * height; }
 };
 
-// Ranges as the panel says, else around its curves.
+// Ranges given by the panel, otherwise those of its curves.
 Axes axes_of(const Panel& p, double x_at, double y_at) {
   double x0 = p.x_range[0], x1 = p.x_range[1], y0 = p.y_range[0], y1 = p.y_range[1];
   const bool fit_x = x0 == x1, fit_y = y0 == y1;
@@ -86,7 +86,7 @@ std::string tick(const Axes& axes, double at, bool horizontal, const std::string
 std::string ticks(const Axes& axes, bool horizontal, bool log) {
   const double a = horizontal ? axes.x0 : axes.y0, b = horizontal ? axes.x1 : axes.y1;
   std::string s;
-  if (log && b - a < 2.2) {  // too few whole decades to read numbers between them
+  if (log && b - a < 2.2) {  // too few complete decades to read numbers between them
     for (double decade = std::floor(a); decade <= b; ++decade)
       for (const double m : {1.0, 2.0, 5.0})
         if (const double at = decade + std::log10(m); at >= a - 1e-9 && at <= b + 1e-9)
@@ -132,7 +132,7 @@ std::string curve_of(const Panel& p, const Axes& axes, std::size_t k) {
   }
   std::string s;
   if (!x.empty() && !c.points) s += polyline(x, y, stroke_of(p, k));
-  const double radius = x.size() > 400 ? 1 : 2.5;  // so that many do not run together
+  const double radius = x.size() > 400 ? 1 : 2.5;  // smaller if there are many, so that they do not merge
   for (std::size_t i = 0; (p.log || c.points) && i < x.size(); ++i)
     s += printed("<circle cx='%.1f' cy='%.1f' r='%g' fill='%s'/>\n", x[i], y[i], radius, colour_of(k));
   return s;

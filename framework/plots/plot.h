@@ -11,10 +11,10 @@ struct Curve {
   std::string label;
   std::vector<double> x, y;
   bool dashed = false;
-  bool points = false;  ///< points alone, no line through them
+  bool points = false;  ///< only points, without a line through them
 };
 
-/// A point with a ring around it and words beside it.
+/// A point with a ring around it and a label.
 struct Mark {
   double x = 0, y = 0;
   std::string label;
@@ -25,7 +25,7 @@ struct Panel {
   std::vector<Curve> curves;
   std::array<double, 2> x_range{0, 0}, y_range{0, 0};  ///< 0, 0: from the curves
   bool equal = false;                                  ///< same scale on both axes
-  bool log = false;  ///< both axes; the numbers of curves are then decimal logarithms, a point each is marked
+  bool log = false;  ///< both axes; the values of curves are then decimal logarithms, and each point is marked
   std::vector<Mark> marks = {};
 };
 

@@ -29,7 +29,7 @@ class Dots {
     for (int k = 0; k <= steps; ++k)
       set(x0 + static_cast<int>(std::lround(double(x1 - x0) * k / steps)), y0 + static_cast<int>(std::lround(double(y1 - y0) * k / steps)));
   }
-  /// Characters U+2800 and on as UTF-8; blanks where there is no dot.
+  /// Characters from U+2800 on, as UTF-8; blanks where there is no dot.
   std::string row(int r) const {
     std::string out;
     for (int c = 0; c < columns_; ++c) {
@@ -76,7 +76,7 @@ void draw_curve(const Curve& curve, const Span& x, const Span& y, Dots& dots) {
 }  // namespace
 
 std::string terminal_plot(const Panel& panel, int columns, int rows) {
-  constexpr int words = 12;  // of the numbers on the left
+  constexpr int words = 12;  // for the numbers on the left
   Dots dots(std::max(columns - words - 2, 20), std::max(rows - 3, 4));
   Span x, y;
   for (const Curve& c : panel.curves) {

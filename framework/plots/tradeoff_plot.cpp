@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-/// 1 is nothing, 0.001 a thousandth, in a decimal logarithm that a picture can show.
+/// Decimal logarithm of a share, limited to a range that a picture can show.
 double decades(double x) { return std::log10(std::max(x, 1e-16)); }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// Error against time of every setting, the front, and what was recommended, as the text of an SVG picture.
+/// Error against time of every setting, the front, and the recommended setting, as the text of an SVG picture.
 std::string tradeoff_svg(const TradeReport&);
 
 }  // namespace pintle

@@ -11,7 +11,7 @@ namespace pintle {
 
 namespace {
 
-/// Fields of a record, those in quotes without them.
+/// Fields of a record, with quotes removed.
 std::vector<std::string> split_record(const std::string& record) {
   std::vector<std::string> out(1);
   bool in_quotes = false;

@@ -13,17 +13,17 @@ struct ResultsError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a .csv file of results record by record; memory does not grow with the rows.
+/// Reads a .csv file of results record by record; memory does not depend on the number of rows.
 class CsvReader {
  public:
   /// @throws ResultsError  it cannot be opened, or has no heading
   explicit CsvReader(std::filesystem::path file);
   const std::vector<std::string>& header() const { return header_; }
-  /// The next record's fields, as many as the heading has. @returns false at the end   @throws ResultsError
+  /// The next record's fields, as many as in the heading. @returns false at the end   @throws ResultsError
   bool next(std::vector<std::string>& fields);
   /// The same as numbers; an empty field is NaN.
   bool next(std::vector<double>& row);
-  /// @throws ResultsError  always: of the record read last
+  /// @throws ResultsError  always: about the last record read
   [[noreturn]] void fail(const std::string& why) const;
 
  private:
@@ -34,13 +34,13 @@ class CsvReader {
   std::ifstream in_;
   std::vector<std::string> header_;
   std::string record_;
-  long line_ = 0, lines_ = 0;  ///< where the record begins; lines read
+  long line_ = 0, lines_ = 0;  ///< first line of the record; lines read
 };
 
-/// How many lines follow the heading. @throws ResultsError
+/// Number of lines after the heading. @throws ResultsError
 std::size_t count_rows(const std::filesystem::path& file);
 
-/// What a heading says: "gudgeon pin.normal [N]".
+/// A column heading: "gudgeon pin.normal [N]".
 struct ColumnName {
   std::string name, unit;
 };

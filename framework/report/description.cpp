@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_of_a_fact = 20'000;  // bytes
 
-/// Its beginning, cut between characters of UTF-8.
+/// Its beginning, cut between UTF-8 characters.
 std::string cut(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
   std::size_t end = most;

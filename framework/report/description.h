@@ -8,17 +8,17 @@
 
 namespace pintle {
 
-/// What a folder of results says of itself: run.json, sweep.json, …
+/// The description in a folder of results: run.json, sweep.json, …
 struct Description {
   std::string question;  ///< the file's name without .json
   std::filesystem::path file;
   nlohmann::ordered_json json;
 };
 
-/// Nothing if there is no such file. @throws ResultsError  it is no JSON object
+/// Nothing if there is no such file. @throws ResultsError  it is not a JSON object
 std::optional<Description> description(const std::filesystem::path& directory, const std::string& question);
 
-/// What a page shows of it: the scene as text of at most so many bytes, nothing that is as long by itself.
+/// The part shown on a page: the scene as text of at most `most_text` bytes, and no other entry that is as long.
 nlohmann::ordered_json facts(const Description&, std::size_t most_text);
 
 }  // namespace pintle

@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-/// Cells in triangles by their corners, those of second order also by the middles of their sides.
+/// Divides cells into triangles by their corners, those of second order also by the middles of their sides.
 std::vector<Corners> triangles_of(const std::vector<Cells>& all) {
   std::vector<Corners> out;
   for (const Cells& cells : all) {
@@ -39,7 +39,7 @@ std::vector<Corners> triangles_of(const std::vector<Cells>& all) {
   return out;
 }
 
-/// Which square of a grid each point lies in, and of each square the first point found in it.
+/// The square of a grid that each point is in, represented by the first point found in it.
 std::vector<int> first_in_square(const Eigen::Matrix2Xd& x, double width) {
   std::map<std::pair<long, long>, int> first;
   std::vector<int> out;
@@ -68,7 +68,7 @@ std::vector<std::array<int, 2>> rim_of(const std::vector<Corners>& triangles) {
   return out;
 }
 
-/// Beams' ribbons touch in points of their own: those that coincide count as one.
+/// Ribbons of beams have separate points where they meet: coinciding ones count as one.
 void join_coinciding(const FlexibleDrawing& body, std::vector<int>& stands_for) {
   const std::vector<int> same = first_in_square(body.points(), 1e-9 * body.size());
   for (int& p : stands_for) p = same[at(p)];

@@ -11,10 +11,10 @@ namespace pintle {
 struct DrawnMesh {
   std::vector<int> points;  ///< columns of FlexibleDrawing::points
   std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> rim;  ///< sides of triangles that belong to one alone
+  std::vector<std::array<int, 2>> rim;  ///< sides of a single triangle
 };
 
-/// @param most  points; of a finer body one stays in each square of a grid, and triangles that lie in one or two squares go
+/// @param most  points; for a finer body one point is kept in each square of a grid, and triangles within one or two squares are removed
 DrawnMesh drawn_mesh(const FlexibleDrawing&, std::size_t most);
 
 }  // namespace pintle

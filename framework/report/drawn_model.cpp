@@ -41,7 +41,7 @@ Json marker_json(const Marker& m) {
   return out;
 }
 
-/// Rows `per` a point of a matrix with a column a shape, of these points alone, shape by shape.
+/// The rows of the given points, `per` rows each, of a matrix with one column per shape, shape by shape.
 std::string of_points(const Eigen::MatrixXd& all, int per, const std::vector<int>& points) {
   std::vector<float> out;
   for (Eigen::Index shape = 0; shape < all.cols(); ++shape)
@@ -138,7 +138,7 @@ Json contacts_json(const System& system) {
     const std::string& name = system.contact_names[at(&c - system.contacts.data())];
     Json one{{"name", name}, {"a", c.a}, {"b", c.b}, {"on", body_of(system, c.profiles && !c.journal ? c.b : c.a)}};
     if (!c.profiles) one["radius"] = bearing_radius(c.gap), one["clearance"] = c.gap.clearance();
-    one["eccentric"] = !c.profiles || c.journal;  // its columns are an eccentricity, not a place
+    one["eccentric"] = !c.profiles || c.journal;  // its columns are an eccentricity, not a position
     out.push_back(std::move(one));
   }
   return out;

@@ -10,15 +10,15 @@
 
 namespace pintle {
 
-/// What a page draws of a mechanism: outlines and meshes in the axes of bodies, and where joints, contacts, springs and loads sit on
-/// them. The motion comes from columns of trajectory.csv, found by the names of these things.
-/// @param mesh_bytes  that meshes and shapes of all flexible bodies may take together
+/// The drawing of a mechanism on a page: outlines and meshes in body axes, and the positions of joints, contacts, springs and loads on
+/// them. The motion comes from columns of trajectory.csv, found by the names of these elements.
+/// @param mesh_bytes  limit for meshes and shapes of all flexible bodies together
 nlohmann::ordered_json drawn_model_json(const Scene&, const Model&, std::size_t mesh_bytes);
 
-/// Names of the columns, without units, that place the bodies and make what is drawn.
+/// Names of the columns, without units, for the positions of bodies and for the drawing.
 std::vector<std::string> drawn_columns(const Model&);
 
-/// The columns, without units, that no drawing can do without.
+/// The columns, without units, that every drawing needs.
 std::vector<std::string> needed_columns(const Model&);
 
 }  // namespace pintle

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// The files of app/report/ as the build puts them into the program (cmake/embed.cmake).
+/// The files of app/report/, embedded into the program by the build (cmake/embed.cmake).
 namespace pintle::page_parts {
 
 extern const std::string_view style, body, script;

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Results of a scene that moves.
+/// Results of a moving scene.
 std::optional<Description> motion_in(const fs::path& directory) {
   for (const char* const question : {"inverse", "kinematics", "run"}) {
     auto out = description(directory, question);
@@ -39,11 +39,11 @@ std::optional<Description> motion_in(const fs::path& directory) {
 }
 
 Scene scene_of(const Description& results) {
-  std::string file = results.json.value("file", std::string());  // meshes and tables are sought beside it
+  std::string file = results.json.value("file", std::string());  // meshes and tables are looked up next to it
   if (file.empty()) file = results.file.string();
   Scene scene = read_scene_text(results.json["scene"].dump(), file, {}, fs::path(file).parent_path());
   scene = results.question == "kinematics" ? ready_for_kinematics(std::move(scene)) : with_pieces(std::move(scene));
-  scene.output.frames = std::max(scene.output.frames, 2);  // shapes for drawing are kept
+  scene.output.frames = std::max(scene.output.frames, 2);  // so that shapes for drawing are kept
   return scene;
 }
 
@@ -102,7 +102,7 @@ Json events_json(const fs::path& path, std::size_t most) {
   return {{"columns", columns}, {"rows", rows}, {"all", all}};
 }
 
-/// What the scene's events did: the first so many.
+/// The first `most` actions of the scene's events.
 Json actions_json(const fs::path& path, std::size_t most) {
   CsvReader file(path);
   Json columns = Json::array(), rows = Json::array();

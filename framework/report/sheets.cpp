@@ -29,7 +29,7 @@ std::vector<std::size_t> all_but_time(std::size_t columns) {
   return out;
 }
 
-/// The rows of a file in stretches of equal length.
+/// The rows of a file divided into stretches of equal length.
 class Stretches {
  public:
   Stretches(std::size_t rows, std::size_t stretches)
@@ -40,13 +40,13 @@ class Stretches {
   std::size_t length_;
 };
 
-/// A value and when it was.
+/// A value and its time.
 struct Sample {
   double t = 0, value = std::numeric_limits<double>::quiet_NaN();
   bool there() const { return !std::isnan(value); }
 };
 
-/// A column reduced: first, last, and of each stretch the least and greatest value, as they follow each other.
+/// A reduced column: first, last, and the least and greatest value of each stretch, in their order.
 class Extremes {
  public:
   void add(double t, double value) {
@@ -87,7 +87,7 @@ std::vector<std::size_t> columns_called(const std::vector<std::string>& header, 
   return out;
 }
 
-/// Rows in which some column is least or greatest.
+/// Rows in which some column has its least or greatest value.
 class ExtremeRows {
  public:
   explicit ExtremeRows(std::size_t columns) : least_(columns), greatest_(columns) {}

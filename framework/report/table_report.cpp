@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using TableJson = nlohmann::ordered_json;
 
-/// A kind of results that are a table, and the columns that a first look should show.
+/// A kind of tabular results, and the columns shown first.
 struct TableKind {
   const char* name;
-  const char *x, *y;   ///< empty: the first that differ from row to row
+  const char *x, *y;   ///< empty: the first that vary between rows
   const char* colour;  ///< likewise
   bool logarithmic;
 };
@@ -29,7 +29,7 @@ constexpr TableKind kinds[] = {{"sweep", "", "", "", false},
                                {"linearized", "frequency", "damping ratio", "kind", false},
                                {"modes", "mode", "frequency", "", false}};
 
-/// A number where the whole field is one.
+/// A number if the complete field is one.
 TableJson value_of(const std::string& field) {
   if (field.empty()) return nullptr;
   double x = 0;
@@ -37,7 +37,7 @@ TableJson value_of(const std::string& field) {
   return error == std::errc() && end == field.data() + field.size() && std::isfinite(x) ? TableJson(x) : TableJson(field);
 }
 
-/// Which rows stay.
+/// The rows that are kept.
 std::set<std::size_t> kept(const std::vector<TableJson>& rows, std::size_t columns, std::size_t most) {
   std::set<std::size_t> out;
   const auto below = [&](std::size_t c) {

@@ -7,8 +7,8 @@
 
 namespace pintle {
 
-/// The table of a `sweep`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder holds none.
-/// @param most_rows  of a longer table evenly spaced rows stay, and those in which a column is least or greatest
+/// The table of a `sweep`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder has none.
+/// @param most_rows  for a longer table, evenly spaced rows are kept, and those in which a column is least or greatest
 /// @throws ResultsError
 std::optional<std::string> table_page(const std::filesystem::path& directory, std::size_t most_rows, std::size_t most_text);
 

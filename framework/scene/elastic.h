@@ -12,11 +12,11 @@
 #include "framework/scene/place.h"
 #include "meshes/link.h"
 
-/// What a scene says of a body made of finite elements.
+/// The description of a finite-element body in a scene.
 namespace pintle {
 
 struct SceneMaterial {
-  std::string name;  ///< empty where it was written in the body itself
+  std::string name;  ///< empty if it was written in the body itself
   Material material;
   Place place;
 };
@@ -27,21 +27,21 @@ inline constexpr int default_beam_elements = 20;
 
 /// A beam along straight pieces between points of the body.
 struct SceneBeam {
-  std::vector<std::string> through;  ///< names of points, two or more, in order
+  std::vector<std::string> through;  ///< names of two or more points, in order
   SectionShape section = CircleSection{0};
-  std::optional<SectionShape> taper_to;  ///< section at the far end, sizes linear along the beam
+  std::optional<SectionShape> taper_to;  ///< section at the far end; dimensions vary linearly along the beam
   BeamTheory theory = BeamTheory::timoshenko;
   ShearFactor shear = ShearFactor::cowper;
   bool rotary = true;  ///< rotary inertia of the sections
   bool bar = false;    ///< bars: axial only, pinned at every node
   SceneMaterial material;
-  std::optional<double> mass;  ///< scales the density so that the body has this mass [kg]
-  int elements = 0;            ///< over the whole length, shared by length; 0: the default
-  int pieces = 1;              ///< floating frames it is cut into, welded to each other
+  std::optional<double> mass;  ///< scales the density to give the body this mass [kg]
+  int elements = 0;            ///< over the whole length, distributed by length; 0: the default
+  int pieces = 1;              ///< number of floating frames it is divided into, with the pieces welded together
 };
 
 struct SceneFile {
-  std::string path;         ///< beside the scene file
+  std::string path;         ///< relative to the scene file
   double scale = 1;         ///< m per unit of the file
   bool unit_given = false;  ///< by `unit` or `scale`
 };
@@ -50,21 +50,21 @@ struct SceneGrid {
   int nx = 1, ny = 1;
 };
 
-/// A plane part of even thickness.
+/// A plane part of uniform thickness.
 struct ScenePlate {
   std::variant<Link, SceneFile, SceneGrid> shape;
   double thickness = 0;  ///< [m]
   PlaneState state = PlaneState::stress;
   bool state_given = false;  ///< by `plane`
   SceneMaterial material;
-  std::optional<double> mass;      ///< scales the density so that the body has this mass [kg]
-  std::string element;             ///< "triangle6" …; empty: triangle6, or as the mesh file has it
-  double size = 0, hole_size = 0;  ///< [m]; 0: chosen
+  std::optional<double> mass;      ///< scales the density to give the body this mass [kg]
+  std::string element;             ///< "triangle6" …; empty: triangle6, or as in the mesh file
+  double size = 0, hole_size = 0;  ///< [m]; 0: default
 };
 
 enum class RimCoupling { none, rigid, average };
 
-/// Which freedoms of a point or group are held.
+/// Which freedoms of a point or group are fixed.
 struct SceneSupport {
   std::string at;  ///< point, group, hole or edge
   bool x = false, y = false, rotation = false;
@@ -78,23 +78,22 @@ struct SceneLump {
   Place place;
 };
 
-/// How many shapes stay; unset: all.
+/// How many shapes are kept; unset: all.
 struct SceneKeep {
-  bool automatic = false;  ///< those that the scene's own motion excites
+  bool automatic = false;  ///< those excited by the motion of the scene
   std::optional<int> count;
   std::optional<double> below;           ///< [Hz]
   std::optional<double> effective_mass;  ///< share, 0 to 1
 };
 struct SceneModes {
   enum class Frame { tangent, chord, mean_axes } frame = Frame::mean_axes;
-  std::string a, b;  ///< the tie's points; empty: the first and last marker of the body
+  std::string a, b;  ///< points of the reference conditions; empty: the first and last marker of the body
   enum class Method { normal, craig_bampton, free } method = Method::normal;
   SceneKeep keep;
   Place place;
 };
 
-/// Damping of the shapes: C = αM + βK, from ratios at two modes, or a ratio each (the last for the
-/// rest).
+/// Damping of the shapes: C = αM + βK, from ratios at two modes, or one ratio per shape (the last also for the rest).
 struct SceneDamping {
   std::optional<std::array<double, 2>> rayleigh_ratios;
   std::array<int, 2> rayleigh_modes{1, 2};        ///< counted from 1
@@ -103,15 +102,14 @@ struct SceneDamping {
   Place place;
 };
 
-/// Which loads stiffen a body that bends, through its foreshortening: docs/theory/motion.md.
+/// Which loads give a flexible body geometric stiffness, through its foreshortening: docs/theory/motion.md.
 enum class Stiffening {
   none,
-  rotation,  ///< its inertia: spin and the frame's accelerations
-  axial,     ///< these and the loads at its points
+  rotation,  ///< its inertia: spin and accelerations of the frame
+  axial,     ///< these, and loads at its points
 };
 
-/// A body of elements: exactly one of beam and plate. Without `modes` a mechanism meets it as
-/// rigid.
+/// A body of elements: exactly one of beam and plate. Without `modes` it is rigid in a mechanism.
 struct SceneElastic {
   std::variant<SceneBeam, ScenePlate> shape;
   bool lumped = false;  ///< lumped instead of consistent mass
@@ -126,12 +124,12 @@ struct SceneStaticLoad {
   enum class Kind { force, torque, traction, pressure, line, acceleration, spin };
   Kind kind = Kind::force;
   std::string name;
-  /// Point (force, torque), group (traction, pressure), or point or empty (spin: origin).
+  /// Point (force, torque), group (traction, pressure), or point or empty (spin: the origin).
   std::string at;
   Pair vector{0, 0};  ///< force [N], traction [Pa], line load [N/m], acceleration [m/s²]; body axes
   double value = 0;   ///< torque [N m], pressure [Pa], spin [rad/s]
   Place place;
-  std::string body = {};  ///< that it acts on; empty: that of the case
+  std::string body = {};  ///< the loaded body; empty: that of the case
 };
 /// Edges or holes of two bodies that may touch without friction.
 struct SceneStaticContact {
@@ -142,20 +140,20 @@ struct SceneStaticContact {
   Side first, second;
   Place place;
 };
-/// Where the origin of a body's axes lies in those of the case.
+/// Position of the origin of a body's axes in the axes of the case.
 struct SceneStaticPlace {
   std::string body;
   Pair at{0, 0};  ///< [m]
   Place place;
 };
-/// A static load case on one body, or on several that touch, held by their supports.
+/// A static load case of one body, or of several touching bodies, held by their supports.
 struct SceneStatic {
   std::string body;  ///< empty: the only elastic body
   std::vector<SceneStaticLoad> loads;
   Place place;
   std::vector<SceneStaticContact> contacts = {};
-  std::vector<SceneStaticPlace> at = {};  ///< bodies that are not there lie as they are drawn
-  /// The body that a load acts on.
+  std::vector<SceneStaticPlace> at = {};  ///< bodies not listed stay where they are drawn
+  /// The body on which a load acts.
   const std::string& loaded(const SceneStaticLoad& l) const { return l.body.empty() ? body : l.body; }
 };
 

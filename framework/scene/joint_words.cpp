@@ -36,7 +36,7 @@ const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(jo
 
 namespace {
 
-// Where something is measured a point counts, not only its body. The ground may be measured from several.
+// For measured quantities the point matters, not only its body. Several points on the ground may be used.
 std::vector<const PointRef*> points_of(const std::vector<SceneTerm>& terms) {
   std::vector<const PointRef*> out;
   for (const bool turning : {false, true})
@@ -60,7 +60,7 @@ PointRef carrier_of(const Scene& scene, const PointRef& ref) {
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
   if (body == scene.bodies.end()) return {ref.body, "", ref.place};
   const auto profile = std::ranges::find(body->profiles, ref.point, &SceneProfile::name);
-  if (profile == body->profiles.end()) return {ref.body, "", ref.place};  // told where its surface is built
+  if (profile == body->profiles.end()) return {ref.body, "", ref.place};  // reported where its surface is built
   if (profile->on.empty() && body->elastic && body->elastic->modes)
     throw SceneError(scene.file, profile->place,
                      "\"" + body->name + "\" is flexible, and it is not given which of its points carries \"" + profile->name +

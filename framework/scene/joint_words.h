@@ -5,37 +5,37 @@
 
 #include "framework/scene/scene.h"
 
-/// The joints that a scene can have, in one table: their words, what stands beside them, and what they hold of a body.
+/// A table of the joints that a scene can have: their keywords, the keys allowed with them, and what they fix of a body.
 namespace pintle {
 
-/// A number that stands beside a joint's points.
+/// A number given with a joint's points.
 struct JointNumber {
   enum Of { angle, length, ratio } of;
   const char* key;
   double SceneJoint::*value;
-  const char* required = nullptr;  ///< what to write where it is missing: "length: 120 mm"; it is above 0 then
+  const char* required = nullptr;  ///< example for a message if it is missing: "length: 120 mm"; the number must then be positive
 };
 
 struct JointWord {
   JointKind kind;
-  const char* word;        ///< its key in a scene, of its list of points
-  bool third = false;      ///< may have a third point, else the ground
-  bool turns = false;      ///< holds angles of its bodies, whatever their points
-  bool guides = false;     ///< along the direction of its first point
-  bool clamps = false;     ///< holds the directions of its points to each other
-  bool clearance = false;  ///< takes one
-  bool friction = false;   ///< likewise
+  const char* word;        ///< its key in a scene, for its list of points
+  bool third = false;      ///< may have a third point, otherwise the ground is used
+  bool turns = false;      ///< constrains angles of its bodies, whatever their points
+  bool guides = false;     ///< guides along the direction of its first point
+  bool clamps = false;     ///< fixes the directions of its points relative to each other
+  bool clearance = false;  ///< clearance allowed
+  bool friction = false;   ///< friction allowed
   std::vector<JointNumber> numbers = {};
-  std::vector<const char*> couples = {};  ///< keys of SceneCoupling that stand beside it
+  std::vector<const char*> couples = {};  ///< keys of SceneCoupling allowed with it
 };
 
 std::span<const JointWord> joint_words();
 const JointWord& word_of(const SceneJoint&);
 
-/// The points that a joint joins, in the order of its ends; of a relation of terms one of each body.
+/// The points that a joint connects, in the order of its ends; for a relation of terms, one of each body.
 std::vector<const PointRef*> points_of(const SceneJoint&);
-/// The point that carries a profile, BODY.PROFILE; of a rigid body and the ground the origin.
-/// @throws SceneError  a flexible body's profile that no point carries
+/// The point that carries a profile, BODY.PROFILE; for a rigid body and the ground the origin.
+/// @throws SceneError  a flexible body's profile without a carrying point
 PointRef carrier_of(const Scene&, const PointRef& profile);
 
 }  // namespace pintle

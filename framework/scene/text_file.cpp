@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Bytes of the UTF-8 character that begins at s[i]; 0 if none does.
+// Number of bytes of the UTF-8 character that begins at s[i]; 0 if there is none.
 std::size_t character(const std::string& s, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(k < s.size() ? s[k] : 0); };
   const unsigned char c = byte(i);
@@ -18,7 +18,7 @@ std::size_t character(const std::string& s, std::size_t i) {
   const std::size_t n = c >= 0xf5 ? 0 : c >= 0xf0 ? 4 : c >= 0xe0 ? 3 : c >= 0xc2 ? 2 : 0;
   const unsigned char next = byte(i + 1);
   const bool longer_than_needed = (c == 0xe0 && next < 0xa0) || (c == 0xf0 && next < 0x90);
-  if (longer_than_needed || (c == 0xed && next > 0x9f) || (c == 0xf4 && next > 0x8f)) return 0;  // half a pair, beyond Unicode
+  if (longer_than_needed || (c == 0xed && next > 0x9f) || (c == 0xf4 && next > 0x8f)) return 0;  // surrogate, or beyond Unicode
   for (std::size_t k = 1; k < n; ++k)
     if ((byte(i + k) & 0xc0) != 0x80) return 0;
   return n;

@@ -36,7 +36,7 @@ std::string one_line(std::string s) {
   return s;
 }
 
-/// The measures' values; a name that this case lacks, but the study's scene without the case's overrides has, is no error.
+/// The measures' values; a name that this case lacks, but that exists in the study's scene without the case's overrides, is not an error.
 void measure(const CaseSource& source, const std::vector<Measure>& measures, const Scene& scene, const Model& model, const Run& run,
              Outcome& out) {
   for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -49,7 +49,7 @@ void measure(const CaseSource& source, const std::vector<Measure>& measures, con
   }
 }
 
-/// @throws SceneError  a measure that neither the case nor the study's scene can have
+/// @throws SceneError  a measure that is possible neither in the case nor in the study's scene
 void validate_words(const CaseSource& source, const std::vector<Measure>& measures, const Scene& scene) {
   std::optional<Scene> common;
   for (const Measure& m : measures) {
@@ -67,7 +67,7 @@ struct Timed {
   bool over = false;
 };
 
-/// Listeners that stop a case, and whether they did for its time.
+/// Listeners that stop a case, and record whether its time limit was the reason.
 Listeners watched(const CaseLimits& limits, Timed& timed) {
   Listeners out;
   if (limits.go_on || limits.seconds > 0)
@@ -78,7 +78,7 @@ Listeners watched(const CaseLimits& limits, Timed& timed) {
   return out;
 }
 
-/// Where the mechanism rests, as a run of one row.
+/// The equilibrium of the mechanism, as a run with one row.
 Run resting(const Scene& scene, const Model& model, const Assembly& assembly, double at) {
   const Equilibrium rest = find_equilibrium(scene, model, assembly, at);
   Run run;
@@ -98,7 +98,7 @@ Run follow_case(const Scene& scene, const Model& model, const Assembly& assembly
   }
 }
 
-/// What a run, or what is like one, has come to.
+/// Takes over the results of a run, or of an analysis with similar results.
 void take_over(Outcome& out, const Run& run) {
   out.status = status_text(run.status);
   out.reason = one_line(run.reason);
@@ -128,7 +128,7 @@ std::string curves_csv(const std::vector<Measure>& curves, const Scene& scene, c
   return out;
 }
 
-/// Analyses that make columns: a run, kinematics, inverse, statics.
+/// Analyses that give columns: a run, kinematics, inverse, statics.
 void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, Scene& scene,
                clock::time_point begin) {
   if (limits.time_alone) scene.output.every = scene.run.until;
@@ -146,7 +146,7 @@ void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure
   if (limits.keep_run) out.run = std::move(run);
 }
 
-/// The state that a linearisation is about; nothing, and why, where there is none.
+/// The state for a linearisation; nothing, and the reason, where there is none.
 std::optional<State> linearized_about(const Scene& scene, const Model& model, const Question& question, Outcome& out) {
   const Assembly assembly = assemble(scene, model);
   if (question.equilibrium) {
@@ -166,7 +166,7 @@ std::optional<State> linearized_about(const Scene& scene, const Model& model, co
   }
 }
 
-/// Analyses that find modes.
+/// Analyses that compute modes.
 void modes_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, const Scene& scene,
               clock::time_point begin) {
   std::vector<AskedMode> asked;
@@ -229,7 +229,7 @@ Scene common_scene(const CaseSource& source) { return case_scene(source, {}); }
 
 namespace {
 
-/// A case in one situation, or without any.
+/// A case in one situation, or without situations.
 Outcome one_outcome(const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures, const CaseLimits& limits) {
   Outcome out;
   out.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
@@ -248,7 +248,7 @@ Outcome one_outcome(const CaseSource& source, const Overrides& overrides, const 
   return out;
 }
 
-/// What one of several situations adds to a case.
+/// Adds the result of one of several situations to a case.
 void merge(Outcome& whole, const Outcome& part, const std::vector<std::size_t>& places, const std::string& situation) {
   for (std::size_t i = 0; i < places.size(); ++i) whole.values[places[i]] = part.values[i], whole.units[places[i]] = part.units[i];
   whole.build_seconds += part.build_seconds, whole.run_seconds += part.run_seconds;
@@ -256,7 +256,7 @@ void merge(Outcome& whole, const Outcome& part, const std::vector<std::size_t>& 
   whole.counts.steps += part.counts.steps, whole.impacts += part.impacts;
   whole.unexplained_share = std::max(whole.unexplained_share, part.unexplained_share);
   const std::string finished = status_text(Status::finished);
-  if (!whole.status.empty() && whole.status != finished) return;  // the first trouble is told
+  if (!whole.status.empty() && whole.status != finished) return;  // the first failure is reported
   whole.status = part.status;
   whole.reason = part.reason.empty() ? "" : "in " + situation + ": " + part.reason;
 }

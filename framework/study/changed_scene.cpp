@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Paths of tables and drawings, found from another folder.  @returns whether there are any
+/// Changes the paths of tables and drawings to be relative to another folder.  @returns whether there are any
 bool mend_paths(Yaml& yaml, const std::string& parent, const fs::path& from, const fs::path& to) {
   bool any = false;
   for (Yaml& item : yaml.items) any = mend_paths(item, yaml.kind == Yaml::Kind::map ? yaml.key : parent, from, to) || any;
@@ -26,7 +26,7 @@ bool mend_paths(Yaml& yaml, const std::string& parent, const fs::path& from, con
   return true;
 }
 
-/// A bare number given for a parameter has the parameter's unit.
+/// A bare number for a parameter gets the parameter's unit.
 void set_parameters(Yaml& scene, const Overrides& parameters) {
   const auto group = std::ranges::find(scene.items, "parameters", &Yaml::key);
   if (group == scene.items.end()) return;
@@ -45,7 +45,7 @@ void set_parameters(Yaml& scene, const Overrides& parameters) {
   }
 }
 
-/// What fits on a line stands on one, the rest one entry a line.
+/// Entries that fit on a line are written on one, others with one entry per line.
 void block(const Yaml& yaml, std::size_t indent, std::string& out) {
   const std::string flow = override_text(yaml);
   const bool open = yaml.kind == Yaml::Kind::map && !yaml.items.empty() && (indent == 0 || flow.size() + indent > 120);
@@ -66,7 +66,7 @@ void block(const Yaml& yaml, std::size_t indent, std::string& out) {
 std::string changed_scene(const CaseSource& source, const Overrides& set, const fs::path& directory, const std::string& comment) {
   Yaml scene = parse_yaml(source.text, source.file.string());
   const bool whole = std::ranges::find(scene.items, "include", &Yaml::key) == scene.items.end() && !has_copies(scene);
-  if (!whole) scene = parse_yaml(common_scene(source).filled_in, source.file.string());  // written out
+  if (!whole) scene = parse_yaml(common_scene(source).filled_in, source.file.string());  // with everything expanded
   Overrides all = source.common;
   all.insert(all.end(), set.begin(), set.end());
   set_parameters(scene, apply_paths(scene, source.file.string(), all));

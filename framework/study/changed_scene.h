@@ -7,8 +7,8 @@
 
 namespace pintle {
 
-/// The text of a study's scene with overrides applied, ready to run: its tables and drawings are found from `directory`.
-/// @param comment  stands at its head
+/// The text of a study's scene with overrides applied, ready to run, with paths of tables and drawings relative to `directory`.
+/// @param comment  placed at the top
 std::string changed_scene(const CaseSource&, const Overrides&, const std::filesystem::path& directory, const std::string& comment);
 
 }  // namespace pintle

@@ -17,7 +17,7 @@ Overrides read_set(const Node& node) {
   return out;
 }
 
-/// What is asked of each case: `analysis`, `at`, `equilibrium`.
+/// The analysis of each case: `analysis`, `at`, `equilibrium`.
 Question read_question(const Node& root) {
   Question q;
   const auto words = choices("study", "analysis");
@@ -78,7 +78,7 @@ std::vector<Measure> read_measures(const Node& node, const std::string& file, co
   return out;
 }
 
-/// "peak [N]" becomes "peak": tables put the unit behind the name. @throws SceneError  it is named in another unit
+/// "peak [N]" becomes "peak": tables add the unit to the name. @throws SceneError  the name has another unit
 void without_unit(Measure& m, const std::string& unit) {
   const auto open = m.name.rfind('[');
   if (open == std::string::npos || m.name.back() != ']') return;
@@ -103,7 +103,7 @@ void validate_names(std::vector<Measure>& measures, const Scene& scene, const No
       if (measures[i].name == measures[k].name) node.fail("measures \"" + measures[i].name + "\" twice; leave one out");
 }
 
-/// The first name in a group of a scene, or another.
+/// The first name in a group of a scene, or a default.
 std::string first_in(const Node& scene, const char* group, const char* otherwise) {
   if (!scene.has(group) || !scene.at(group).is_map() || scene.at(group).keys().empty()) return otherwise;
   return scene.at(group).keys().front();
@@ -152,7 +152,7 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
   const std::filesystem::path scene_path = path.parent_path() / scene.text("the scene's file, beside the study");
-  // The user's own study may name a scene anywhere, but nothing else: what is wrong with it is shown.
+  // A user's study may name a scene anywhere, but no other file: errors show its content.
   const std::string kind = scene_path.extension().string();
   if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is not a scene; name a .yaml, .yml or .json file");
   if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; its path is relative to the study");

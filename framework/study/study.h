@@ -9,8 +9,8 @@
 
 namespace pintle {
 
-/// A study file: a scene, what is common to its cases, what is measured. What is varied and why stands in a section of
-/// its own, `sweep` (sweep.h) or `tradeoff` (tradeoff.h), read by its own reader.
+/// A study file: a scene, settings common to its cases, and measures. What is varied, and for what purpose, is in a separate section, such
+/// as `sweep` (sweep.h) or `tradeoff` (tradeoff.h), with its own reader.
 struct Study {
   std::string file;  ///< for messages
   std::string title;
@@ -18,18 +18,18 @@ struct Study {
   std::vector<Measure> measures;
 };
 
-/// The tree of a study file, and the study that stands in its common keys (title, scene, set, analysis, measure).
+/// The tree of a study file, and the study in its common keys (title, scene, set, analysis, measure).
 struct StudyFile {
   Yaml tree;
   Source source;
   Study study;
   Node root() const { return Node(tree, source, {tree.line, {}}); }
 };
-/// @param instead  an example of the key that a command asks for instead of measures; empty: it asks for these
+/// @param instead  an example of the key that a command requires instead of measures; empty: it requires measures
 /// @throws SceneError  naming file, line, key, value and remedy
 StudyFile read_study(const std::filesystem::path&, const std::string& instead = {});
 
-/// One entry, a list of them, or named ones: f(entry, its name, which is empty where it has none). @param remedy  what they may be
+/// One entry, a list of entries, or named ones: f(entry, its name, empty if it has none). @param remedy  allowed forms
 template <class F>
 void each_entry(const Node& node, const char* remedy, F f) {
   if (node.is_scalar())
@@ -40,9 +40,9 @@ void each_entry(const Node& node, const char* remedy, F f) {
     for (const Node& entry : node.entries(remedy)) f(entry, entry.name());
 }
 
-/// @throws SceneError  it measures nothing, which only a study with a goal may do
+/// @throws SceneError  it measures nothing, which is allowed only in a study with a goal
 void require_measures(const StudyFile&);
-/// `keep`: quantities of which each case leaves a curve. @throws SceneError  the scene has not such a thing
+/// `keep`: quantities for which each case writes a curve. @throws SceneError  the scene has no such quantity
 std::vector<Measure> read_curves(const StudyFile&);
 
 }  // namespace pintle

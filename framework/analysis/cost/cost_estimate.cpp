@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 double since(double begin) { return processor_time() - begin; }
 
-/// Seconds of a step, roughly, from the sizes of things: it sets how many steps a trial has, so that they are the same
-/// each time; the time of a step is measured.
+/// Rough computing time of a step [s], from the sizes of the model: it sets the number of steps of a trial, so that this is the same each
+/// time; the actual time of a step is measured.
 double rough_step_seconds(const System& s, const Scheme& scheme) {
   const double rows = s.n_rows(), bodies = static_cast<double>(s.bodies.size());
   double evaluation = 0.2e-6 + 0.06e-6 * bodies + 0.015e-6 * static_cast<double>(s.markers.size()) + 0.06e-6 * rows +
@@ -43,7 +43,7 @@ double rough_step_seconds(const System& s, const Scheme& scheme) {
   return 5 * evaluation + 1e-6 * (3 * bodies + shapes + rows);
 }
 
-/// A trial and the ends of its steps.
+/// A trial and the end times of its steps.
 struct Tried {
   Trial trial;
   std::vector<double> ends;
@@ -82,7 +82,7 @@ RunCost cost_of(const Tried& tried, double until) {
   return c;
 }
 
-constexpr double clock_factor = 3;  // a trial may take so much longer than meant before the clock ends it
+constexpr double clock_factor = 3;  // a trial may take this many times its intended time before the clock ends it
 constexpr long least_steps = 16;
 
 Tried try_for(Integrator& run, const System& system, const Scheme& scheme, double until, double seconds) {
@@ -90,7 +90,7 @@ Tried try_for(Integrator& run, const System& system, const Scheme& scheme, doubl
   return try_out(run, until, std::max(least_steps, static_cast<long>(steps)), clock_factor * seconds);
 }
 
-/// Rows and what they cost, by making some inside the last step of a trial.
+/// Measures the cost of rows by making some inside the last step of a trial.
 void estimate_rows(const Scene& scene, const Model& model, Integrator& run, OutputCost& out) {
   const double until = scene.run.until, every = scene.output.every > 0 ? scene.output.every : until / 1000;
   out.rows = static_cast<long>(std::ceil(until / every - 1e-9)) + 1;
@@ -115,7 +115,7 @@ void estimate_rows(const Scene& scene, const Model& model, Integrator& run, Outp
   out.row_bytes = static_cast<double>(text.size() - std::min(heads, text.size())) / made;
 }
 
-/// A folder that goes when it is done with.
+/// A folder that is deleted after use.
 struct Temporary {
   fs::path path;
   Temporary() {
@@ -130,7 +130,7 @@ struct Temporary {
   Temporary(const Temporary&) = delete;
 };
 
-/// The first frame makes ready what others have in common; the mean of those that follow is taken, several where they are short.
+/// The first frame initialises data shared by all; the mean of the following ones is taken, several if they are fast.
 void estimate_frames(const Scene& scene, const Model& model, Integrator& run, OutputCost& out) {
   constexpr double enough = 2e-3;  // [s]
   constexpr int most = 17;
@@ -151,7 +151,7 @@ void estimate_frames(const Scene& scene, const Model& model, Integrator& run, Ou
     if (file.is_regular_file()) out.frame_bytes += static_cast<double>(file.file_size()) / frames;
 }
 
-/// What the program holds in memory now [bytes]; 0 where the system does not tell.
+/// Memory used by the program now [bytes]; 0 where the system does not report it.
 double resident() {
   std::ifstream in("/proc/self/statm");
   double size = 0, pages = 0;
@@ -199,7 +199,7 @@ void estimate_rates(const Scene& scene, const System& system, CostEstimate& p) {
 
 double part_saved(const CostEstimate& p, double seconds) { return p.seconds.likely > 0 ? 1 - seconds / p.seconds.likely : 0; }
 
-/// Fewer outputs need no trial.
+/// Savings by fewer outputs need no trial.
 void save_outputs(CostEstimate& p) {
   const auto less = [&](const std::string& what, double seconds) {
     if (seconds > 0) p.simpler.push_back({what, p.run, true, part_saved(p, p.seconds.likely - seconds)});
@@ -230,7 +230,7 @@ Estimate steps_of_run(const std::vector<double>& ends, double until) {
 
 CostEstimate estimate_cost(const Scene& scene, const Model& model, const Assembly& assembly, double seconds) {
   constexpr double share_of_the_run = 0.3;
-  constexpr double longest_share = 0.1;  // of a simpler run
+  constexpr double longest_share = 0.1;  // relative to a simpler run
   const double begin = processor_time();
   const System& system = model.system;
   CostEstimate p;
@@ -250,7 +250,7 @@ CostEstimate estimate_cost(const Scene& scene, const Model& model, const Assembl
   const double impacts = p.run.trial.reached > 0 ? static_cast<double>(p.run.trial.impacts) * p.until / p.run.trial.reached : 0;
   p.memory = resident() + impacts * sizeof(Impact);
 
-  if (!p.run.trial.trouble.empty()) return p;  // there is no time to save
+  if (!p.run.trial.trouble.empty()) return p;  // no computing time to reduce
   const std::vector<Simpler> models = simpler_models(scene, model, assembly.start);
   for (const Simpler& s : models) {
     if (since(begin) > clock_factor * seconds / 2) {

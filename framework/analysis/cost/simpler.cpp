@@ -45,7 +45,7 @@ void drop_stiffening(System& system, int body) {
     if (m.body == body) m.second = {};
 }
 
-/// Takes away the joint that is a clearance's massless link.
+/// Removes the joint that is a clearance's massless link.
 void drop_link(System& system, ContactPair& pair) {
   const int link = std::exchange(pair.link, -1);
   forget_switch(system, Switch::joint, link);
@@ -115,8 +115,8 @@ class Maker {
  private:
   static constexpr std::size_t few = 3;
 
-  /// The model's start; where links have become pins, that of the model without them, journals in the middle of their
-  /// bearings: shapes that had to make up for the length of a link would ring.
+  /// The model's start; where links have become pins, the start of the model without them, with journals in the middle of their bearings:
+  /// otherwise shapes that had to compensate for the length of a link would oscillate.
   State start_for(const System& simpler) const {
     System open = model_.system;
     for (std::size_t c = 0; c < open.contacts.size(); ++c)
@@ -126,7 +126,7 @@ class Maker {
     number(open);
     try {
       return start_of(open, assemble(scene_, open).start, simpler);
-    } catch (const AssemblyError&) {  // the model's own start will do, or its trial says why not
+    } catch (const AssemblyError&) {  // the model's own start is used, or its trial reports the reason
       return start_of(model_.system, start_, simpler);
     }
   }
@@ -135,8 +135,8 @@ class Maker {
   void add(const std::string& what, Change change, double tolerance = 0) {
     Simpler s{what, model_.system, model_.scheme, {}};
     change(s.system);
-    s.scheme.events.clear();  // which know the model's own elements
-    Scene scene;              // what the choice of a method looks at
+    s.scheme.events.clear();  // they refer to the model's own elements
+    Scene scene;              // input for the choice of a method
     scene.file = scene_.file;
     scene.run = scene_.run;
     scene.start_bodies = scene_.start_bodies;
@@ -149,14 +149,14 @@ class Maker {
     made_.push_back(std::move(s));
   }
 
-  /// One by one if few, and all together if more than one.
+  /// Each one separately if there are few, and all together if there is more than one.
   template <class Name, class Change>
   void each(const std::vector<int>& of, Name name, const std::string& together, Change change) {
     if (of.size() <= few)
       for (const int i : of) add(name(i), [&](System& s) { change(s, i); });
     if (of.size() > 1)
       add(together, [&](System& s) {
-        for (auto i = of.rbegin(); i != of.rend(); ++i) change(s, *i);  // from behind: indices before it stay
+        for (auto i = of.rbegin(); i != of.rend(); ++i) change(s, *i);  // backwards, so that earlier indices stay valid
       });
   }
   template <class Change, class Has>

@@ -21,12 +21,12 @@ namespace {
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-/// Forces of a driven motion, from what its masses ask.
+/// Forces of a driven motion, from its inertia.
 class Forces {
  public:
   Forces(const System& system, const State& start) : system_(system), motion_(system, start), f_(VectorXd::Zero(system.n())) {}
 
-  /// On to time t, everything evaluated there. @returns false as DrivenMotion does
+  /// Advances to time t and evaluates everything there. @returns false as DrivenMotion does
   bool advance(double t) {
     if (!motion_.advance(t)) return false;
     Equations& eq = motion_.equations();
@@ -64,7 +64,7 @@ std::vector<DriverEffort> named_efforts(const System& system) {
   return out;
 }
 
-// How well a spline through every second row meets those between; twice the rows do about sixteen times as well.
+// Error of a spline through every second row at the rows between; with twice as many rows it is about sixteen times smaller.
 double spline_error(const DriverEffort& e) {
   if (e.t.size() < 9) return std::numeric_limits<double>::quiet_NaN();
   Samples half;
@@ -90,7 +90,7 @@ void add_efforts(const System& system, double t, const Equations& eq, std::vecto
   }
 }
 
-// Rows are doubled until a spline through them can be trusted.
+// The number of rows is doubled until a spline through them is accurate.
 std::vector<DriverEffort> find_efforts(const Model& model, const Assembly& assembly, std::size_t first, double until) {
   constexpr double enough = 1e-9, smooth = 0.3;
   constexpr std::size_t most = 32768;
@@ -129,7 +129,7 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   run.seconds += std::chrono::duration<double>(clock::now() - begin).count();
 }
 
-// The run's animation frames, taken more often, are where the efforts are read, whether anyone draws the frames or not.
+// Efforts are recorded at the run's animation frames, taken more often, whether frames are drawn or not.
 void integrate(Scene scene, const Model& model, const Assembly& assembly, const Listeners& listeners, Inverse& out) {
   constexpr int least = 4096;
   const bool drawn = scene.output.frames > 1;

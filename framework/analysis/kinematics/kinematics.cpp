@@ -41,7 +41,7 @@ std::vector<double> even_times(double interval, double until) {
   return out;
 }
 
-/// Times k·every up to `until`, the last one `until` itself; a thousandth of it if every is 0.
+/// Times k·every up to `until`, the last being `until` itself; every = until/1000 if it is 0.
 std::vector<double> output_times(const Scene& scene) {
   return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
 }
@@ -85,7 +85,7 @@ bool DrivenMotion::project(State& state, VectorXd& a) {
   return state.y.allFinite() && a.allFinite() && drift <= 1e-7 * std::max(fastest, size(a) * 1e-3);
 }
 
-// One step of h if the corrections stay within what the prediction promises.
+// One step of h, if the corrections are within the bounds of the prediction.
 bool DrivenMotion::attempt(double h, State& trial, VectorXd& a) {
   constexpr double farthest = 0.5, part = 0.1, speed_part = 0.3, small = 1e-6, small_turn = 1e-4, careful = 1e-3;
   const Index n = system_.n();
@@ -134,7 +134,7 @@ bool DrivenMotion::advance(double t) {
   return true;
 }
 
-// Which drivers take part in the rows that have become dependent, or nearly so, where the motion ends.
+// The drivers involved in the rows that have become dependent, or nearly so, where the motion ends.
 std::string DrivenMotion::why() {
   std::vector<std::string> asking = driver_names(system_), moving;
   pose(system_, state_.t, state_.y, eq_);
@@ -177,7 +177,7 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
                         "the clearance at " + listed(loose) +
                             " leaves degrees of freedom that no driver moves; leave `clearance` out here, or use `pintle run`");
   if (open <= 0) return;
-  // A displacement that no row feels, taken from one that moves everything.
+  // A displacement that violates no row, obtained from one that moves everything.
   Equations eq(system);
   pose(system, 0, assembly.start.y, eq);
   RowSolver rows;
@@ -203,7 +203,7 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
   const auto begin = clock::now();
   clock::duration drawing{};
   run.trajectory = trajectory_table(told);
-  const std::vector<double> outputs = output_times(scene), frames = frame_times(scene);  // visited, drawn or not: poses follow one another
+  const std::vector<double> outputs = output_times(scene), frames = frame_times(scene);  // visited even if not drawn
   std::size_t o = 0, f = 0;
   bool going = motion.failure().empty();
   double reached = motion.state().t;
@@ -245,7 +245,7 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
 
 namespace {
 
-// Outputs whose columns are all among those that are told, read where these stand.
+// Keeps the outputs whose columns are all recorded, and reads them from there.
 void keep_outputs_of(const Model& model, Model& told) {
   const std::vector<WrittenOutput> all = std::exchange(told.outputs, {});
   const std::vector<std::string> were = trajectory_table(model).header, are = trajectory_table(told).header;

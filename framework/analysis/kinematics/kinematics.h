@@ -9,26 +9,25 @@
 
 namespace pintle {
 
-/// The motion that drivers impose on rigid bodies which they leave no freedom: positions by Newton's method from the
-/// prediction q + hs + ½h²a, speeds by Cq s = −Ct, accelerations by Cq a = γ, rows that repeat others by least
-/// squares. Masses play no part. A step whose correction, or whose change of speed, is more than its prediction
-/// allows is taken in parts, so that no other branch of the linkage is met by accident; through a singular pose the
-/// prediction decides.
+/// The motion of rigid bodies that drivers determine completely: positions by Newton's method from the prediction q + hs + ½h²a, speeds by
+/// Cq s = −Ct, accelerations by Cq a = γ, redundant rows by least squares. Masses have no effect. A step whose correction, or whose change
+/// of speed, is larger than its prediction allows is divided, so that the linkage does not change branch by accident; through a singular
+/// configuration the prediction decides.
 class DrivenMotion {
  public:
-  /// @pre start meets C = 0 nearly
+  /// @pre start nearly satisfies C = 0
   DrivenMotion(const System&, State start);
-  /// On to time t ≥ state().t. @returns false when it cannot; see failure()
+  /// Advances to time t ≥ state().t. @returns false when it cannot; see failure()
   bool advance(double t);
 
   const State& state() const { return state_; }
   const Eigen::VectorXd& acceleration() const { return a_; }
   const RowSolver& rows() const { return rows_; }  ///< at state()
-  Equations& equations() { return eq_; }           ///< pose and speed are those of state()
+  Equations& equations() { return eq_; }           ///< with the pose and speed of state()
   const std::string& failure() const { return failure_; }
   long steps() const { return steps_; }
   long rejected() const { return rejected_; }
-  double worst_position() const { return worst_position_; }  ///< scaled, as Integrator has it
+  double worst_position() const { return worst_position_; }  ///< scaled as in Integrator
   double worst_velocity() const { return worst_velocity_; }
 
  private:
@@ -47,11 +46,11 @@ class DrivenMotion {
   long steps_ = 0, rejected_ = 0;
 };
 
-/// @throws AssemblyError  drivers and joints leave freedoms open at the start: how many, and which bodies move
+/// @throws AssemblyError  drivers and joints leave degrees of freedom at the start: how many, and which bodies move
 void require_driven(const Scene&, const Model&, const Assembly&);
 
-/// The driven motion over `run.until`: trajectory of bodies and points, no forces, no ledger. `reason` says why it
-/// ended early, if it did; what came before is kept.
+/// The driven motion over `run.until`: trajectory of bodies and points, without forces and energy balance. `reason` says why it ended
+/// early, if it did; the results up to then are kept.
 /// @throws AssemblyError  as require_driven
 Run kinematics(const Scene&, const Model&, const Assembly&, const Listeners& = {});
 
@@ -60,9 +59,9 @@ Run kinematics(const Scene&, const Model&, const Assembly&, const Listeners& = {
 void write_kinematics(const std::filesystem::path& directory, const Scene&, const Model&, const Run&);
 std::string kinematics_json(const Scene&, const Model&, const Run&);
 
-/// Follows a driven motion through the scene's outputs, recorded into the run's table as `told` has it, and its frames,
-/// until its end, a failure or the listener's stop. Status, reason, times and counts of the run are filled in.
-/// @param advance  on to a time, what is recorded evaluated there; false: it cannot, see failure()
+/// Follows a driven motion through the scene's outputs, recorded in the run's table as defined by `told`, and its frames, until its end, a
+/// failure or the listener's stop. Fills in status, reason, times and counts of the run.
+/// @param advance  advances to a time and evaluates what is recorded there; false: it cannot, see failure()
 void follow(const Scene&, const Model& told, DrivenMotion&, const std::function<bool(double)>& advance, const Listeners&, Run&);
 
 }  // namespace pintle

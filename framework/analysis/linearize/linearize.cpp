@@ -41,7 +41,7 @@ std::string bristles_text(const FrictionLaw& law, double load) {
          text(load * of.damping) + " N s/m where they are at rest";
 }
 
-/// The system with the points that are recorded among its markers, its laws held still where they are to be.
+/// The system with the recorded points among its markers, and its laws held constant where required.
 System prepared(const Model& model, double t, Laws laws) {
   System out = model.system;
   for (const RecordedPoint& p : model.points) out.markers.push_back(p.marker);
@@ -73,7 +73,7 @@ std::vector<std::string> coordinate_names(const System& system) {
   return out;
 }
 
-/// The body of most kinetic energy, and what moves most in it.
+/// The body with the most kinetic energy, and the coordinate that moves most in it.
 void name_carrier(const System& system, const MotionAt& here, const std::vector<std::string>& names, LinearMode& mode) {
   double most = 0, total = 0;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
@@ -101,7 +101,7 @@ VectorXcd normalised(const System& system, const VectorXcd& shape) {
   return size > 0 ? VectorXcd(shape * (system.scale[most] / shape[most])) : shape;
 }
 
-/// Zero roots share shapes: one mode for each motion that nothing holds, in the metric of M.
+/// Zero roots share shapes: one mode for each unrestrained motion, in the metric of M.
 void add_zero_modes(const System& system, const std::vector<QuadraticRoot>& roots, const Linearization& lin, std::vector<LinearMode>& out) {
   constexpr double another = 1e-3;
   std::vector<VectorXd> basis;
@@ -122,7 +122,7 @@ void add_zero_modes(const System& system, const std::vector<QuadraticRoot>& root
   }
 }
 
-// Coefficients that change by `drift` in `window` let amplitudes grow or fall at their own pace, which is no growth of the motion.
+// Coefficients that change by `drift` in `window` make amplitudes grow or decay at that rate, which is not a growth of the motion.
 std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, const SmallMotion& size, const Linearization& lin) {
   const double pace = lin.coefficients != Coefficients::frozen && lin.window > 0 ? lin.drift / lin.window : 0;
   std::vector<LinearMode> out;
@@ -143,7 +143,7 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
   return out;
 }
 
-// Surfaces that overlap where the state knows of no impact, as a start does.
+// Surfaces that overlap although the state contains no impact, as at a start.
 State with_contacts_closed(const System& system, State state) {
   state.impact_rate.resize(system.contacts.size(), 0.0);
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {

@@ -13,21 +13,21 @@
 
 namespace pintle {
 
-/// What the coefficients of a small motion do along the motion that it is about.
+/// How the coefficients of a small motion change along the reference motion.
 enum class Coefficients {
-  constant,  ///< they stay, in the world's axes
-  turning,   ///< they stay in axes that turn steadily about the world's origin
-  frozen     ///< they change; those of the instant are given, in the world's axes
+  constant,  ///< constant in the world's axes
+  turning,   ///< constant in axes that rotate steadily about the world's origin
+  frozen     ///< they change; given for the instant, in the world's axes
 };
 
-/// x' = A x + B u,  y = C x + D u. x: independent coordinates, then their rates, then internal states; u: loads, and of each driver an
-/// offset of its law with the offset's first and second rate; all as deviations from the motion.
+/// x' = A x + B u,  y = C x + D u. x: independent coordinates, then their rates, then internal states; u: loads, and for each driver an
+/// offset of its law with its first and second rate; all as deviations from the motion.
 struct StateSpace {
   Eigen::MatrixXd A, B, C, D;
   std::vector<std::string> states, inputs, outputs;  ///< "name [unit]"
 };
 
-/// A clearance joint as the small motion sees it.
+/// A clearance joint in the small motion.
 struct LinearContact {
   std::string name;
   bool closed;                ///< an open one contributes nothing
@@ -41,25 +41,25 @@ struct LinearContact {
 /// imaginary part.
 struct LinearMode {
   enum class Kind { oscillating, decaying, growing, zero } kind = Kind::oscillating;
-  std::complex<double> root;  ///< [1/s]; exactly 0 of a zero mode
-  double uncertainty = 0;     ///< of the root, from rounding of the coefficients and what is left of their change [1/s]
-  int roots = 2;              ///< how many of the roots it stands for
-  Eigen::VectorXcd shape;     ///< n; the coordinate that moves most, by its scale, is 1 · its scale
-  std::string carrier;        ///< the coordinate that moves most in the body of the greatest kinetic energy
-  double share = 0;           ///< of that body in the kinetic energy
+  std::complex<double> root;  ///< [1/s]; exactly 0 for a zero mode
+  double uncertainty = 0;     ///< of the root, from rounding of the coefficients and their remaining change [1/s]
+  int roots = 2;              ///< number of roots that it represents
+  Eigen::VectorXcd shape;     ///< n; normalised so that the coordinate that moves most, relative to its scale, is 1 · its scale
+  std::string carrier;        ///< the coordinate that moves most in the body with the greatest kinetic energy
+  double share = 0;           ///< share of that body in the kinetic energy
 
   double frequency() const;  ///< |Im root|/2π [Hz]
   double natural() const;    ///< |root|/2π [Hz]
-  double damping() const;    ///< −Re root/|root|; 0 of a zero mode
+  double damping() const;    ///< −Re root/|root|; 0 for a zero mode
 };
 const char* kind_text(LinearMode::Kind);
 
-/// All of a linearisation. Theory: docs/theory/linearisation.md.
+/// Complete result of a linearisation. Theory: docs/theory/linearisation.md.
 struct Linearization {
   State about;
   Coefficients coefficients = Coefficients::constant;
-  double turn = 0;               ///< rate of the axes in which the coordinates are told [rad/s]
-  double drift = 0;              ///< greatest change of a coefficient, over its size, while the motion goes on by …
+  double turn = 0;               ///< rotation rate of the axes of the coordinates [rad/s]
+  double drift = 0;              ///< largest relative change of a coefficient while the motion continues for …
   double window = 0;             ///< … [s]; 0 at rest, where nothing changes
   std::vector<int> independent;  ///< indices into q
   SmallMotion motion;            ///< the equations of p
@@ -68,39 +68,39 @@ struct Linearization {
   std::vector<LinearMode> modes;  ///< by size of the root, zero modes first
   std::vector<LinearContact> contacts;
   std::vector<std::string> coordinates;  ///< "name [unit]" of each of q
-  std::vector<std::string> notes;        ///< what a reader must know, in words
+  std::vector<std::string> notes;        ///< remarks for the reader, in words
 };
 
-/// Whether laws of drivers and loads go on, or stay at what they are at the state's instant.
+/// Whether laws of drivers and loads continue in time, or are held at their values at the state's instant.
 enum class Laws { go_on, hold };
 
-/// Coordinates up to which a scene is linearised; everything is dense.
+/// Largest number of coordinates for a linearisation; all matrices are dense.
 inline constexpr int most_linearized = 1500;
 
-/// The small motion about a state that meets the constraints, as the mechanism moves there.
+/// The small motion about a state that satisfies the constraints, as the mechanism moves there.
 /// @throws SceneError     more than `most_linearized` coordinates
-/// @throws AssemblyError  a singular pose, or free motion without mass
+/// @throws AssemblyError  a singular configuration, or unconstrained motion without mass
 Linearization linearize(const Scene&, const Model&, const State&, Laws = Laws::go_on);
 
-/// The start to linearize about. Flexible bodies start undeformed; where drivers turn the mechanism steadily, they are bent here as they
-/// rest in the axes that turn with it. Where it does not, the assembled start. `note` says which, and what bending is left
-/// out; empty where no body bends or nothing moves.
+/// The state to linearise about. Flexible bodies start undeformed; where drivers rotate the mechanism steadily, they are deformed here to
+/// their equilibrium in the rotating axes. Otherwise it is the assembled start. `note` says which, and what deformation is left out; empty
+/// where no body bends or nothing moves.
 struct LinearizedStart {
   State state;
   std::string note;
 };
 LinearizedStart linearized_start(const Scene&, const Model&, const Assembly&);
 
-/// The state that a run reaches. @throws std::runtime_error  saying at what time and why the run failed
+/// The state that a run reaches. @throws std::runtime_error  saying when and why the run failed
 State state_at(const Model&, const State& start, double t);
 
-/// linearized.csv, shapes.csv (of the modes that `shapes` counts), A.csv, B.csv, C.csv, D.csv, linearized.json.
+/// linearized.csv, shapes.csv (of the first `shapes` modes), A.csv, B.csv, C.csv, D.csv, linearized.json.
 /// @throws std::runtime_error  naming the path that cannot be written
 void write_linearization(const std::filesystem::path& directory, const Scene&, const Linearization&, int shapes);
 std::string linearized_json(const Scene&, const Linearization&);
 
-/// The mechanism displaced along a mode at a phase of its period, so that its greatest coordinate moves by a tenth of
-/// the mechanism's length or by 0.1 rad; joints are kept closed where they can be. @returns its state, contacts open
+/// The mechanism displaced along a mode at a phase of its period, such that its largest coordinate moves by a tenth of the mechanism's
+/// length or by 0.1 rad; joints are kept closed where possible. @returns its state, contacts open
 State displaced(const Model&, const Linearization&, const LinearMode&, double phase);
 
 }  // namespace pintle

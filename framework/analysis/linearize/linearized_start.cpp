@@ -1,4 +1,4 @@
-// Where a linearization begins: flexible bodies of a mechanism that turns steadily, bent as they then stay.
+// Start of a linearisation: flexible bodies of a steadily rotating mechanism in their steady deformation.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// How far the bodies would bend if they followed the forces of the start statically, over their size, the most.
+/// The largest deflection, relative to body size, if the bodies followed the forces of the start statically.
 double bending_left(const Model& model, const State& start, std::string& body) {
   const System& system = model.system;
   Equations eq(system);
@@ -32,7 +32,7 @@ double bending_left(const Model& model, const State& start, std::string& body) {
   return most;
 }
 
-/// Flexible bodies at rest in axes that turn with the mechanism: no shape accelerates, no spin changes.
+/// Flexible bodies are at rest in axes that rotate with the mechanism: no modal acceleration, constant spins.
 bool steady(const System& system, const State& state) {
   constexpr double rest = 1e-6;
   Equations eq(system);

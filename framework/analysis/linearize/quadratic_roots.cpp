@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// Of the sums behind each coefficient: rounding of sums of some ten terms, and of derivatives along the motion.
+// Relative to the terms summed for each coefficient: rounding of some ten terms, and of derivatives along the motion.
 constexpr double rounding = 1e-13;
 
 double bilinear(const VectorXcd& y, const MatrixXd& A, const VectorXcd& x) { return y.cwiseAbs().dot(A * x.cwiseAbs()); }
@@ -27,7 +27,7 @@ bool conservative(const SmallMotion& s, const SmallMotion& size) {
   return s.G_x.size() == 0 && within(s.D, size.D) && within(s.K - s.K.transpose(), size.K + size.K.transpose());
 }
 
-// ω² of a symmetric problem: pairs on the imaginary axis, or ± on the real one where it is negative.
+// ω² of a symmetric problem: pairs on the imaginary axis, or ± pairs on the real axis where it is negative.
 std::vector<QuadraticRoot> symmetric_roots(const SmallMotion& s, const MatrixXd& L) {
   const MatrixXd half = L.triangularView<Eigen::Lower>().solve((s.K + s.K.transpose()) / 2);
   const MatrixXd K = L.triangularView<Eigen::Lower>().solve(half.transpose());
@@ -48,13 +48,13 @@ std::vector<QuadraticRoot> symmetric_roots(const SmallMotion& s, const MatrixXd&
 Complex nearest_root(Complex a, Complex b, Complex c, Complex near) {
   Complex d = std::sqrt(b * b - 4.0 * a * c);
   if ((std::conj(b) * d).real() < 0) d = -d;
-  const Complex q = -0.5 * (b + d);  // the larger of the two in size: no cancellation
+  const Complex q = -0.5 * (b + d);  // the one of larger magnitude: no cancellation
   if (q == 0.0) return 0;
   const Complex one = q / a, two = c / q;
   return std::abs(one - near) < std::abs(two - near) ? one : two;
 }
 
-// All eigenvalues of A by LAPACK, balanced, with their vectors.
+// All eigenvalues of A by LAPACK, with balancing, and their vectors.
 struct Eigenpairs {
   VectorXcd value;
   Eigen::MatrixXcd right, left;
@@ -77,7 +77,7 @@ Eigenpairs eigenpairs(MatrixXd A) {
   Eigenpairs out{VectorXcd(n), Eigen::MatrixXcd(n, n), Eigen::MatrixXcd(n, n)};
   for (Index i = 0; i < n; ++i) {
     out.value[i] = {re[i], im[i]};
-    const Index first = im[i] < 0 ? i - 1 : i;  // a pair: real and imaginary part stand side by side
+    const Index first = im[i] < 0 ? i - 1 : i;  // a pair: real and imaginary part in adjacent columns
     const Complex j(0, im[i] > 0 ? 1 : im[i] < 0 ? -1 : 0);
     const Index second = im[i] == 0 ? i : first + 1;
     out.right.col(i) = right.col(first).cast<Complex>() + j * right.col(second).cast<Complex>();
@@ -86,7 +86,7 @@ Eigenpairs eigenpairs(MatrixXd A) {
   return out;
 }
 
-// The equations in coordinates in which the mass is one, of first order in [σ p; ṗ; x]:
+// The equations in coordinates with unit mass matrix, in first-order form in [σ p; ṗ; x]:
 //   [0 σ 0; −K̃/σ −D̃ F̃; G̃_p/σ G̃_v G_x].
 struct Companion {
   Companion(const SmallMotion& s, const MatrixXd& L) : m(s.M.rows()), x(s.G_x.rows()), A(MatrixXd::Zero(2 * m + x, 2 * m + x)) {
@@ -121,7 +121,7 @@ std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd&
     root.lambda = pairs.value[i];
     const VectorXcd x = pairs.right.col(i), y = pairs.left.col(i);
     root.right = back.solve(x.head(of.m)), root.left = back.solve(y.segment(of.m, of.m));
-    if (of.x > 0) {  // what rounding of A's entries makes of it
+    if (of.x > 0) {  // effect of the rounding of A's entries
       const double size = std::abs(root.lambda), of_pair = std::abs(y.dot(x));
       root.uncertainty = of_pair > 0 ? std::min(rounding * bilinear(y, of.A.cwiseAbs(), x) / of_pair, size) : size;
       root.zero = size <= root.uncertainty;

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// The columns of A that belong to translations turned: A T, T = R(angle) for each body.
+// The columns of A for translations, rotated: A T, with T = R(angle) for each body.
 MatrixXd turned(const System& system, const MatrixXd& A, double angle) {
   MatrixXd out = A;
   const double c = std::cos(angle), s = std::sin(angle);
@@ -26,7 +26,7 @@ MatrixXd turned(const System& system, const MatrixXd& A, double angle) {
 }
 // T X
 MatrixXd turned_rows(const System& system, double angle, const MatrixXd& X) { return turned(system, X.transpose(), -angle).transpose(); }
-// J X: a quarter turn of translations, zero elsewhere. A J is −(J Aᵀ)ᵀ.
+// J X: translations rotated by a quarter turn, zero elsewhere. A J is −(J Aᵀ)ᵀ.
 MatrixXd quarter(const System& system, const MatrixXd& X) {
   MatrixXd out = MatrixXd::Zero(X.rows(), X.cols());
   for (Index i = 0; i < system.n_rigid() && X.cols() > 0; i += 3) {
@@ -48,8 +48,8 @@ void fill_jacobian(const Equations& eq, MatrixXd& Cq) {
   visit_jacobian(eq, [&](int row, int column, double value) { Cq(row, column) += value; });
 }
 
-// As many columns as P has independent rows, those that determine the others' motion best; shapes follow from
-// frames rather than frames from shapes.
+// As many columns as P has independent rows: those that determine the motion of the others best. Shapes follow from frames rather than
+// frames from shapes.
 std::vector<int> dependent_columns(const System& system, MatrixXd P) {
   constexpr double rank_threshold = 1e-9, of_shapes = 1e-3;
   if (P.rows() == 0) return {};
@@ -91,7 +91,7 @@ MotionAt::MotionAt(const System& system, const State& at) : state(at), eq(system
   leave_out_open(system);
 }
 
-// Bristles of what is open do nothing, and would be as many roots at 0.
+// Bristles of open contacts have no effect, and would only add roots at 0.
 void MotionAt::leave_out_open(const System& system) {
   std::vector<int> kept;
   for (const InternalStates& owner : system.internal) {
@@ -126,8 +126,8 @@ double MotionAt::rate(const System& system) const {
   return std::max(speed, std::sqrt(eq.a.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>()));
 }
 
-// With P = Cq T scaled to be free of units: P X = E, E the unit offsets, holds along the motion, so that
-// P X1 = −Ṗ X and P X2 = −P̈ X − 2 Ṗ X1 with nothing in the independent rows.
+// With P = Cq T made dimensionless: P X = E, with unit offsets E, holds along the motion, so that P X1 = −Ṗ X and P X2 = −P̈ X − 2 Ṗ X1,
+// with zeros in the independent rows.
 FreeMotion::FreeMotion(const System& system, const MotionAt& at, const Axes& axes, const std::vector<int>& offset_rows,
                        const std::vector<int>* chosen) {
   const Index n = system.n(), rows = system.n_rows();

@@ -16,57 +16,57 @@ struct SmallMotion {
   Eigen::MatrixXd F = {}, G_p = {}, G_v = {}, G_x = {};
 };
 
-/// The equations of motion at a state: where it goes and how the residual answers, n × n.
+/// The equations of motion at a state: accelerations and derivatives of the residual, n × n.
 struct MotionAt {
   MotionAt(const System&, const State&);
   State state;
   Equations eq;             ///< evaluated there
-  Eigen::MatrixXd M, D, K;  ///< ∂r/∂a, ∂r/∂s, ∂r/∂q, internal states held
-  Tangent::Internal x;      ///< how these answer, but for bristles of open contacts
+  Eigen::MatrixXd M, D, K;  ///< ∂r/∂a, ∂r/∂s, ∂r/∂q, with internal states held
+  Tangent::Internal x;      ///< their response, except bristles of open contacts
   std::vector<std::string> x_names;
-  bool regular = false;  ///< false: a singular pose, and nothing but `state` is there
+  bool regular = false;  ///< false: a singular configuration, where only `state` is valid
 
-  /// How fast the pose changes: the greatest of speeds and rates of internal states over scale and the roots of
-  /// accelerations over scale [1/s]; 0 at rest.
+  /// Rate of change of the configuration: the largest of speeds and rates of internal states over their scales, and of square roots of
+  /// accelerations over their scales [1/s]; 0 at rest.
   double rate(const System&) const;
 
  private:
   void leave_out_open(const System&);
 };
 
-/// The axes in which independent coordinates are told: turned by `phase`, turning at `rate` about the world's
-/// origin. Translations of bodies are turned, angles and modal coordinates are as they are.
+/// The axes of the independent coordinates: rotated by `phase`, rotating at `rate` about the world's origin. Translations of bodies are
+/// rotated; angles and modal coordinates are unchanged.
 struct Axes {
   double rate = 0, phase = 0;  ///< [rad/s], [rad]
 };
 
-/// What the constraints leave free, along the motion: of small p and of small offsets u of driven rows, x = [p; u],
+/// The motions that the constraints allow, along the reference motion: for small p and small offsets u of driven rows, x = [p; u],
 ///   δq = X x,   δs = X ẋ + X1 x,   δa = X ẍ + 2 X1 ẋ + X2 x    (Cq δq = offsets, to first order, at all times)
-/// p are the coordinates `independent` themselves, so X is the identity in their rows when phase is 0.
+/// p are the coordinates `independent` themselves, so X is the identity in their rows if phase is 0.
 struct FreeMotion {
-  /// @param offset_rows  rows of C of which an offset counts as an input
-  /// @param independent  chosen before, at a pose near by; by the constraints if null
+  /// @param offset_rows  rows of C whose offsets are inputs
+  /// @param independent  chosen before, in a configuration nearby; if null, chosen from the constraints
   FreeMotion(const System&, const MotionAt&, const Axes&, const std::vector<int>& offset_rows, const std::vector<int>* chosen = nullptr);
 
   std::vector<int> independent, dependent;
-  bool full_rank = true;                  ///< no row of Cq follows from others
-  std::vector<double> left;               ///< per offset, what other rows forbid of it: 0 to rounding, or they contradict it
+  bool full_rank = true;                  ///< all rows of Cq are independent
+  std::vector<double> left;               ///< per offset, the part that other rows prevent: 0 to rounding, or they contradict it
   Eigen::MatrixXd X, X1, X2;              ///< n × (m + offsets)
-  Eigen::MatrixXd Cq, Cq_rate, Cq_accel;  ///< with its derivatives along the motion
+  Eigen::MatrixXd Cq, Cq_rate, Cq_accel;  ///< and its derivatives along the motion
 
   Eigen::Index m() const { return static_cast<Eigen::Index>(independent.size()); }
   /// Zᵀ(…): the equations of p.
   SmallMotion project(const MotionAt&) const;
 };
 
-/// dᵏ/dt of a matrix along the motion at `at`: `fill(eq, matrix)` is called after `pose` at places on the path
-/// q + s τ + ½ a τ², which has the derivatives of the motion itself up to the second.
+/// dᵏ/dt of a matrix along the motion at `at`: `fill(eq, matrix)` is called after `pose` at points of the path q + s τ + ½ a τ², whose
+/// first two derivatives are those of the motion.
 struct Derivatives {
   Eigen::MatrixXd value, rate, accel;
 };
 template <class Fill>
 Derivatives along(const System& system, const MotionAt& at, Eigen::Index rows, Eigen::Index columns, Fill fill) {
-  constexpr double reach = 1e-2;  // of a scale, a step: sixth order leaves 2e-15, rounding 5e-12 of the second derivative
+  constexpr double reach = 1e-2;  // relative step: sixth order leaves an error of 2e-15, rounding 5e-12 in the second derivative
   constexpr double first[] = {0.75, -0.15, 1.0 / 60}, second[] = {1.5, -0.15, 1.0 / 90}, middle = -49.0 / 18;
   Derivatives out;
   Eigen::MatrixXd work(rows, columns);

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Generalised forces of the loads' inputs, a column each.
+/// Generalised forces of the loads' inputs, one per column.
 MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std::string>& names) {
   std::vector<VectorXd> columns;
   const auto add = [&](const std::string& name, int a, int b, const Wrench& on_b) {
@@ -50,7 +50,7 @@ MatrixXd load_inputs(const System& system, const Equations& eq, std::vector<std:
   return out;
 }
 
-/// What is measured of a pose: rows of ∂(measure)/∂q.
+/// Quantities that depend on the configuration: rows of ∂(measure)/∂q.
 struct Measures {
   explicit Measures(const Model& model, const System& of) : system(of) {
     const auto add = [&](const std::string& name) { names.push_back(name); };
@@ -105,7 +105,7 @@ struct Measures {
 
   const System& system;
   std::vector<std::string> names;
-  Index points = 0, springs = 0;  ///< rows where they begin
+  Index points = 0, springs = 0;  ///< first rows of each
   int first_marker = 0;
 
  private:
@@ -117,7 +117,7 @@ struct Measures {
   }
 };
 
-/// δq, δs, δa and generalised loads as they follow from [p; ṗ; inputs].
+/// δq, δs, δa and generalised loads as linear functions of [p; ṗ; inputs].
 struct Maps {
   MatrixXd q, s, a, load;
 };
@@ -210,7 +210,7 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
     maps.a.col(u + 1) = 2 * free.X1.col(m + k);
     maps.a.col(u) = free.X2.col(m + k);
   }
-  // p̈ from Zᵀ(M δa + D δs + K δq − load) = 0, of which M Z p̈ is all that is not in the maps yet.
+  // p̈ from Zᵀ(M δa + D δs + K δq − load) = 0, where only M Z p̈ is not yet in the maps.
   MatrixXd p2(m, all);
   if (m > 0) p2 = -motion.M.llt().solve(Z.transpose() * (here.M * maps.a + here.D * maps.s + here.K * maps.q - maps.load));
   maps.a += Z * p2;
@@ -249,7 +249,7 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
   }
   if (free.full_rank) add_efforts(system, here, free, maps, outputs);
   outputs.finish();
-  for (MatrixXd* each : {&out.A, &out.B, &out.C, &out.D}) each->array() += 0.0;  // no zero with a sign
+  for (MatrixXd* each : {&out.A, &out.B, &out.C, &out.D}) each->array() += 0.0;  // no negative zeros
   return out;
 }
 

@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 SmallMotion sizes(const FreeMotion& f, const MotionAt& at) {
-  constexpr double differenced = 100;  // less exact are derivatives along the motion than what they are added to
+  constexpr double differenced = 100;  // derivatives along the motion are less accurate than the terms that they are added to
   const MatrixXd Z = f.X.leftCols(f.m()).cwiseAbs(), Z1 = f.X1.leftCols(f.m()).cwiseAbs() * differenced,
                  Z2 = f.X2.leftCols(f.m()).cwiseAbs() * differenced;
   const MatrixXd M = at.M.cwiseAbs(), D = at.D.cwiseAbs(), K = at.K.cwiseAbs();
@@ -20,8 +20,8 @@ SmallMotion sizes(const FreeMotion& f, const MotionAt& at) {
 
 namespace {
 
-/// Greatest difference of coefficients over their size, in coordinates in which the mass is one; what is slower than
-/// the motion's own rate counts by that rate.
+/// Largest difference of coefficients relative to their size, in coordinates with unit mass matrix; terms slower than the motion's own rate
+/// are compared with that rate.
 double difference(const SmallMotion& a, const SmallMotion& b, double rate) {
   if (a.M.rows() == 0) return 0;
   const Eigen::LLT<MatrixXd> llt(a.M);
@@ -38,7 +38,7 @@ double difference(const SmallMotion& a, const SmallMotion& b, double rate) {
   return std::max({worst(a.M, b.M, 0), worst(a.D, b.D, rate), worst(a.K, b.K, rate * rate)});
 }
 
-/// The motion a little earlier or later, to fifth order in the time; nothing where it cannot be had.
+/// The motion a little earlier or later, to fifth order in the time; nothing where it cannot be computed.
 class NearBy {
  public:
   NearBy(const System& system, const MotionAt& here, double window) : system_(system), here_(here) {
@@ -71,7 +71,7 @@ class NearBy {
   std::unique_ptr<MotionAt> next_;
 };
 
-/// Spins that the mechanism shows, those of more bodies first; four at most.
+/// Spins present in the mechanism, those of more bodies first; at most four.
 std::vector<double> spins(const System& system, const State& state, double rate) {
   std::vector<std::pair<int, double>> found;
   for (Index b = 0; b < static_cast<Index>(system.bodies.size()); ++b) {
@@ -92,8 +92,8 @@ std::vector<double> spins(const System& system, const State& state, double rate)
 }  // namespace
 
 FreeMotion in_steady_axes(const System& system, const MotionAt& here, const std::vector<int>& offsets, Linearization& out) {
-  constexpr double reach = 2e-2;   // of a scale; what the path lacks by then is 1e-11 of it
-  constexpr double steady = 1e-8;  // what changes does so by reach, or reach²/2 where it is at an extreme
+  constexpr double reach = 2e-2;   // relative to a scale; the error of the path is then 1e-11 of it
+  constexpr double steady = 1e-8;  // a change is of the order of reach, or reach²/2 at an extremum
   FreeMotion world(system, here, {}, offsets);
   const double rate = here.rate(system);
   const SmallMotion now = world.project(here);

@@ -6,10 +6,10 @@
 
 namespace pintle {
 
-/// Sizes of what is summed to M, D and K, as if nothing cancelled.
+/// Sizes of the terms summed for M, D and K, without cancellation.
 SmallMotion sizes(const FreeMotion&, const MotionAt&);
 
-/// Chooses the axes in which the coefficients stay, and says in `out` how well they do.
+/// Chooses the axes in which the coefficients are constant, and records in `out` how constant they are.
 FreeMotion in_steady_axes(const System&, const MotionAt& here, const std::vector<int>& offsets, Linearization& out);
 
 }  // namespace pintle

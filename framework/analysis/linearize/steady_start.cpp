@@ -1,4 +1,4 @@
-// Flexible bodies bent as steady motion bends them, before an integration starts.
+// Flexible bodies in their steady-motion deformation, before an integration starts.
 
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/common/dense.h"
@@ -17,12 +17,12 @@ using Eigen::VectorXd;
 
 constexpr int most_dense = 600;
 
-/// The frames' speeds and accelerations where no shape moves.
+/// The frames' speeds and accelerations without motion of the shapes.
 class FrameMotion {
  public:
   explicit FrameMotion(const System& system) : system_(system), Cq_(system.n_rows(), system.n_rigid()) {}
 
-  /// After pose, at y: fills the speeds in y and a. @returns false if drivers leave a frame freedom
+  /// After pose, at y: fills the speeds in y and a. @returns false if drivers do not determine all frames
   bool fill(VectorXd& y, Equations& eq, VectorXd& a) {
     const Index n = system_.n(), r = system_.n_rigid();
     Cq_.setZero();

@@ -16,14 +16,14 @@ namespace pintle {
 
 namespace {
 
-/// The lowest modes of the body with `held` freedoms at zero, as shapes of all freedoms.
+/// The lowest modes of the body with the `held` degrees of freedom fixed, as shapes of all degrees of freedom.
 ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& held, int count, int& rigid) {
   const std::vector<int> free = free_freedoms(e.model, held);
   const Sparse K = restricted(c.K, free), M = restricted(c.M, free);
   EigenOptions options;
   options.count = count;
   EigenPairs pairs = eigen_lowest(K, M, options);
-  if (pairs.zero > 0) {  // the supports leave motions: as many elastic modes as were asked for
+  if (pairs.zero > 0) {  // the supports leave rigid motions: keep the requested number of elastic modes
     rigid = pairs.zero;
     options.count = count + rigid;
     pairs = eigen_lowest(K, M, options);

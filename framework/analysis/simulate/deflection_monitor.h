@@ -8,28 +8,29 @@
 
 namespace pintle {
 
-/// Deflection within the frame, over the body's size, at which a run ends: numbers beyond mean nothing.
+/// Deflection within the frame, relative to the body's size, at which a run ends: results beyond it are meaningless.
 inline constexpr double greatest_deflection = 1;
 
-/// Flexible bodies at the output times: how far they bend, and how the loads on them would change their stiffness.
+/// Monitors flexible bodies at the output times: their deflection, and the change of their stiffness that loads would cause.
 class DeflectionMonitor {
  public:
   explicit DeflectionMonitor(const Model&);
   /// @pre the equations were evaluated at the state
   void see(const State&, const Equations&);
-  /// Why the run cannot go on, in words; empty while it can.
+  /// Why the run cannot continue, in words; empty while it can.
   std::string beyond_limits() const;
-  /// The first of the doubts; empty if there is none.
+  /// The first of the warnings; empty if there is none.
   std::string worst_warning() const;
   void warn(std::vector<std::string>& warnings) const;
 
  private:
   struct Bent {
-    double deflection = 0, slope = 0;  ///< greatest so far, over the body's size, [rad]
+    double deflection = 0, slope = 0;  ///< largest so far, relative to the body's size; [rad]
   };
-  /// Loads where they stiffen the first shape least and most, those of inertia alone and all: frequency_change looks at no others.
+  /// Loads at which the geometric stiffness of the first shape is least and greatest, for inertia alone and for all loads: frequency_change
+  /// uses only these.
   struct Loaded {
-    Eigen::VectorXd first;   ///< what each does to the first shape
+    Eigen::VectorXd first;   ///< effect of each on the first shape
     Eigen::MatrixXd factor;  ///< loads × 4
     std::array<double, 4> on_first{};
     bool any = false;

@@ -9,7 +9,7 @@
 namespace pintle {
 
 namespace {
-/// Rows that are whole.
+/// Keeps only complete rows.
 void trim(Table& table, std::size_t rows) { table.data.resize(std::min(table.data.size(), rows * table.columns())); }
 }  // namespace
 

@@ -4,13 +4,13 @@
 
 namespace pintle {
 
-/// Did the run end because there was no room for what it writes, or no memory?
+/// Did the run end for lack of disk space or memory?
 bool ended_short(const Run&);
-/// Called where an exception is being handled: status and reason of a run that it ends. What is neither a FileError nor want
-/// of memory is thrown on. @param t  reached [s]
+/// Called in an exception handler: sets status and reason of a run that the exception ends. Rethrows anything but a FileError or lack of
+/// memory. @param t  reached [s]
 void end_short(Run&, double t);
 
-/// Ends a run in order where there is no room for what it writes, or no memory.
+/// Ends a run properly if it runs out of disk space or memory.
 template <class Act>
 void guarded(Run& run, const double& t, Act act) {
   try {

@@ -11,7 +11,7 @@ namespace pintle {
 
 namespace {
 
-/// Sliding that does no work of its force leaves its own energy open, which says nothing of the other rows.
+/// Sliding friction whose force does no work does not determine its own energy; this says nothing about the other rows.
 bool books_agree_with_model(const System& system) {
   return std::none_of(system.contacts.begin(), system.contacts.end(),
                       [](const ContactPair& c) { return c.friction && c.sliding == Sliding::geometric; });
@@ -19,10 +19,10 @@ bool books_agree_with_model(const System& system) {
 
 std::string for_finer_books(const Scheme& scheme) { return scheme.fixed_step > 0 ? "shorten moreau.step" : "tighten run.tolerance"; }
 
-// Errors of a run go where its energy goes: each row may be off by what is unexplained beyond rounding, by what the scheme itself took,
-// and by the tolerance of the energy in play.
+// The error of a row may be as large as the energy-balance error beyond rounding, the energy that the scheme removed, and the tolerance of
+// the energy in play together.
 void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
-  constexpr double doubtful = 0.05, noticed = 1e-6;  // of a row, of the energy in play: less is a force that does no work
+  constexpr double doubtful = 0.05, noticed = 1e-6;  // of a row; of the energy in play: below it a force does no work
   if (run.greatest_integrals.size() != system.integrals.size() || !books_agree_with_model(system)) return;
   double warning = std::max(0.0, std::abs(run.worst_unexplained) - run.ledger_floor) + scheme.tolerance * run.energy_in_play;
   for (std::size_t i = 0; i < system.integrals.size(); ++i)
@@ -46,9 +46,9 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
 
 }  // namespace
 
-// A step errs by c(hω)³, which is the tolerance at most; the scheme, of second order, then moves up to (hω)² of the energy between
-// what is stored and what is booked. Twice that, for parts that give theirs to each other. The first power of (hω)² stands for the
-// whole while hω is a tenth, as at a tolerance of 1e-4: a looser one is forgiven no more than that.
+// A step has an error c(hω)³, at most the tolerance; the second-order scheme then makes an error of up to (hω)² of the energy in its energy
+// balance. Twice that is allowed, for parts that exchange energy. The leading term (hω)² is valid while hω is below a tenth, as at a
+// tolerance of 1e-4: looser tolerances get no larger allowance.
 double left_by_scheme(const Scheme& scheme) {
   constexpr double resolved = 0.1;  // hω, sixty steps a period
   return 2 * std::min(resolved * resolved, std::pow(scheme.tolerance / AlphaWeights(scheme.rho).error, 2.0 / 3));
@@ -57,7 +57,7 @@ double left_by_scheme(const Scheme& scheme) {
 void check_energy_balance(const Scene& scene, const Model& model, bool implicit, double floor, Run& run) {
   run.ledger_bound = scene.run.ledger_bound;
   run.ledger_floor = floor;
-  const bool tighter = run.ledger_bound < RunOptions{}.ledger_bound;  // than the default: asked for, and held
+  const bool tighter = run.ledger_bound < RunOptions{}.ledger_bound;  // tighter than the default: requested, so it is applied
   if (implicit && !tighter) run.ledger_bound = std::max(run.ledger_bound, left_by_scheme(model.scheme));
   if (run.status != Status::finished) return;
   const double open = std::abs(run.worst_unexplained), allowed = run.ledger_bound * run.energy_in_play;
@@ -69,7 +69,7 @@ void check_energy_balance(const Scene& scene, const Model& model, bool implicit,
         found + "; bound " + number_text(run.ledger_bound, 3) + " (" + for_finer_books(model.scheme) + ", or raise run.ledger bound)";
     return;
   }
-  constexpr double nothing = 1e-6;  // where all that is in play is what is unexplained, nothing has moved: rounding of heights
+  constexpr double nothing = 1e-6;  // if the energy in play is only the energy-balance error, nothing has moved: rounding of heights
   const bool at_rest = run.energy_in_play - open <= nothing * run.energy_in_play;
   if (open > allowed && !at_rest)
     run.warnings.push_back(found + ", over the bound of " + number_text(run.ledger_bound, 3) +

@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// Which cam has come to an end of its table in a state, so that the next step would leave it; empty: none.
+/// The cam that has reached an end of its table in a state, so that the next step would leave it; empty: none.
 std::string explain_cams(const Scene&, const Model&, const State&);
 
 }  // namespace pintle

@@ -20,7 +20,7 @@ std::string short_number(double x) {
   return s.str();
 }
 
-/// Bodies that show a force the least and the most inertia, at their centres or turning about them.
+/// Bodies with the least and the most inertia against a force, in translation or rotation.
 struct Unlike {
   std::size_t light = 0, heavy = 0;
   double ratio = 1;
@@ -42,7 +42,7 @@ Unlike most_unlike(const System& system) {
 }
 
 std::string explain_numbers(const System& system, const Integrator& integrator) {
-  constexpr double many = 1e6, few = 1e-9, unlike = 1e6;  // radians, of a pivot, times
+  constexpr double many = 1e6, few = 1e-9, unlike = 1e6;  // radians; relative to a pivot; ratio
   const Eigen::Index n = system.n();
   if (!std::isfinite(integrator.last().to.dy.segment(n, n).squaredNorm()))
     return "numbers beyond what a double holds: check masses, lengths, speeds and units";
@@ -56,7 +56,7 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   const Schur& rows = integrator.sampled().schur;
   if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0) return "";
   const Unlike bodies = most_unlike(system);
-  constexpr double hopeless = 1e12;  // nothing of the lighter is left in sums with the heavier
+  constexpr double hopeless = 1e12;  // the lighter is lost in sums with the heavier
   if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
   return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
          system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + short_number(rows.kept()) +

@@ -8,8 +8,9 @@
 
 namespace pintle {
 
-/// What an integrator failed with, and why where cams, laws, the pose or its numbers show it: what a law has done comes first.
-/// @param otherwise  to add where none of them does; may be empty
+/// Describes a failure of an integrator, and its cause where cams, laws, the configuration or its numbers show it; the effects of laws come
+/// first.
+/// @param otherwise  added where none of them is the cause; may be empty
 std::string explained_failure(const Scene&, const Model&, const State& start, Integrator&, const std::string& otherwise = {});
 
 }  // namespace pintle

@@ -26,7 +26,7 @@ class Sum : public ValueWriter<Sum> {
   void bytes(std::string_view some) { sum_.add(some); }
   std::string take() { return sum_.hex(); }
 
-  /// Forty times a decade from a microsecond to ten days.
+  /// Samples it forty times per decade from a microsecond to ten days.
   void add(const TimeLaw& law) {
     if (!law) return add(false);
     constexpr int decades = 12, each = 40;
@@ -35,7 +35,7 @@ class Sum : public ValueWriter<Sum> {
         add(jet.value, jet.rate, jet.accel);
       } catch (const std::bad_alloc&) {
         throw;
-      } catch (const std::exception& outside) {  // of where the law is defined
+      } catch (const std::exception& outside) {  // outside the law's range
         add(std::string(outside.what()));
       }
   }
@@ -158,9 +158,9 @@ class Sum : public ValueWriter<Sum> {
     const auto& [kind, a, b, offset] = signal;
     add(kind, a, b, offset);
   }
-  /// By its values where all its signals are 0, 1, 2 …, at the times of a law of time.
+  /// Samples it with all signals equal to 0, 1, 2 …, at the times used for a law of time.
   void add(const SignalLaw& law) {
-    const auto& [of, in, sided, first_side] = law;  // the sides are those of the same function
+    const auto& [of, in, sided, first_side] = law;  // the sides belong to the same function
     add(in);
     std::array<double, most_law_inputs> at;
     for (int i = 0; i < 32; ++i) {
@@ -173,7 +173,7 @@ class Sum : public ValueWriter<Sum> {
     add(name, unit, scale, start, rate);
   }
   void add(const Integral& z) {
-    if (z.account != Account::scheme) add(z.account, z.index);  // which `method: auto` may add as the run becomes longer
+    if (z.account != Account::scheme) add(z.account, z.index);  // `method: auto` may add it for a longer run
   }
   void add(const System& s) {
     const auto& [gravity, bodies, markers, joints, frictions, forces, contacts, signals, laws, states, joint_names, force_names,
@@ -204,7 +204,7 @@ Json words(const Scene& scene) {
 
 std::string sum_of(const Json& said) { return sha256(said.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
-/// Of each section, and of each of its entries: "bodies.crank".
+/// Checksums of each section, and of each of its entries: "bodies.crank".
 Json sums_of_words(const Json& said) {
   Json out = Json::object();
   for (const auto& [section, inside] : said.items()) {
@@ -216,7 +216,7 @@ Json sums_of_words(const Json& said) {
   return out;
 }
 
-/// Tables, drawings and meshes beside the scene, by their names in it.
+/// Adds tables, drawings and meshes next to the scene, by their names in it.
 void add_files(const Json& said, const fs::path& folder, Json& out) {
   if (said.is_string()) {
     const auto& text = said.get_ref<const std::string&>();
@@ -237,13 +237,13 @@ void add_files(const Json& said, const fs::path& folder, Json& out) {
 std::string sum_of(const Model& model, const Assembly& assembly) {
   Sum sum;
   sum.add(model.system);
-  const Scheme& s = model.scheme;  // the pair and where it gives way are the saved state's
+  const Scheme& s = model.scheme;  // the pair and its fallback are those of the saved state
   sum.add(s.tolerance, s.constraints, s.onset_cut, s.rho, s.max_steps);
   sum.add(assembly.start.t, assembly.start.y.head(2 * model.system.n()));
   return sum.take();
 }
 
-/// The names under which two of such lists differ, one of them empty where there is none.
+/// The names for which two such lists differ, including those missing in one of them.
 std::vector<std::string> differing(const Json& one, const Json& other) {
   std::vector<std::string> out;
   if (!one.is_object() || !other.is_object()) return out;

@@ -6,12 +6,12 @@
 
 namespace pintle {
 
-/// Sums over all that the motion follows from, as a line of JSON: the numbers of the system that was built (masses, shapes,
-/// joints, laws …) and where it starts; the scene's words, entry by entry, but for `title`, `run.until` and `output`; the files
-/// that they name; and, to say why numbers may differ, what program and BLAS made them. Of laws made in C++ it sees samples.
+/// Checksums of everything that determines the motion, as a line of JSON: the numbers of the built system (masses, shapes, joints, laws …)
+/// and its start; the entries of the scene, except `title`, `run.until` and `output`; the files that they name; and, to explain numerical
+/// differences, the program and BLAS used. Laws defined in C++ are sampled.
 std::string identity(const Scene&, const Model&, const Assembly&);
 
-/// What of the first keeps a state that was saved by it from being gone on from by the second, and the remedy; empty: nothing.
+/// Why a state saved by the first cannot be continued by the second, and the remedy; empty: it can.
 std::string difference(const std::string& saved, const std::string& now);
 
 }  // namespace pintle

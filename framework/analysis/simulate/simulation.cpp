@@ -47,14 +47,14 @@ void RowFigures::see() {
 
 namespace {
 
-/// Energy that can be held against: the largest stored so far, and all that came in or went.
+/// Energy that serves as the scale: the largest stored so far, plus all energy that came in or was lost.
 double in_play(const Energies& e, const Energies& first) {
   return std::abs(e.kinetic) + std::abs(e.gravity - first.gravity) + e.springs + e.contacts + e.strain + std::abs(e.lost) +
          std::abs(e.input);
 }
 
-/// What rounding may leave in the books of a mechanism that hardly moves: places known to a part of its length and of their
-/// distance from the world's origin, angles to that part, under weights and forces, and speeds to the former over the run.
+/// Error that rounding may cause in the energy balance of a mechanism that hardly moves: positions accurate to a part of its length and of
+/// their distance from the world's origin, angles to that part, under weights and forces, and speeds to the former over the run.
 double rounding_energy(const System& system, const State& state, const Equations& eq, double until) {
   constexpr double part = 1e-12, of_distance = 1e-13;
   const double place = part * system.length, speed = place / until;
@@ -80,7 +80,7 @@ Run begun(const Model& model, const Assembly& assembly) {
 
 }  // namespace
 
-/// What listeners take is not time of computing.
+/// Time spent in listeners does not count as computing time.
 template <class Act>
 void Simulation::listen(Act act) {
   const auto before = Wall::now();
@@ -146,7 +146,7 @@ Run Simulation::finish() {
   if (!going_ && !ended_short(run_)) explain();
   if (goes_on() && integrator_.state().t < scene_.run.until) end(Status::interrupted, "left before its end");
   guarded(run_, last_row_, [&] { add_last(); });
-  run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // a step may have been cut short
+  run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // the last step may have been incomplete
   if (run_.reason.empty()) run_.reason = integrator_.ended();
   run_.impacts = integrator_.impacts();
   run_.happenings = integrator_.happenings();
@@ -167,7 +167,7 @@ Run Simulation::finish() {
   return std::move(run_);
 }
 
-/// @returns false if the run cannot go on
+/// @returns false if the run cannot continue
 bool Simulation::step(double until) {
   if (listeners_.progress && integrator_.counts().steps % 64 == 0 && !listeners_.progress(integrator_.state().t)) {
     end(Status::interrupted, "stopped by the user");
@@ -176,7 +176,7 @@ bool Simulation::step(double until) {
   return integrator_.advance(until) && after_step();
 }
 
-/// What is due by the end of a step, or of an event after the last. @returns false if the run cannot go on
+/// Output due by the end of a step, or of an event after the last step. @returns false if the run cannot continue
 bool Simulation::after_step() {
   if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
   if (!report()) return false;
@@ -191,7 +191,7 @@ bool Simulation::after_step() {
   return true;
 }
 
-/// Everything due up to the present step's end. @returns false if an output cannot be evaluated
+/// All output due up to the present step's end. @returns false if an output cannot be evaluated
 bool Simulation::report() {
   while (outputs_.due(integrator_.state().t)) {
     if (!integrator_.sample(asked_ = outputs_.next(), sampled_)) return false;
@@ -208,14 +208,14 @@ bool Simulation::report() {
   return true;
 }
 
-/// What an event asks for: the state that it has left, beside that before it where a row is due at its instant.
+/// A row requested by an event: the state after it, in addition to that before it where a row is due at the same time.
 void Simulation::add_row_here() {
   if (!integrator_.sample(integrator_.state().t, sampled_)) return;
   book(sampled_);
   add_row(sampled_);
 }
 
-/// Energies of a sampled state, and how well they balance.
+/// Energies of a sampled state, and their balance.
 void Simulation::book(const State& state) {
   const Energies e = energies(system_, state, integrator_.sampled());
   if (!started_) run_.first = e, started_ = true;
@@ -245,7 +245,7 @@ void Simulation::save() {
   listen([&] { listeners_.state({integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained}); });
 }
 
-/// Where a run ends early it has a last row too, so that its figures and its books are of one moment.
+/// A run that ends early also has a last row, so that its summary and its energy balance refer to the same time.
 void Simulation::add_last() {
   if (started_ && !ended_short(run_)) {
     integrator_.sample(integrator_.state().t, sampled_);
@@ -257,7 +257,7 @@ void Simulation::add_last() {
   if (listeners_.state && !ended_short(run_)) save();
 }
 
-/// Why a run could not go on.
+/// Why a run could not continue.
 void Simulation::explain() {
   end(Status::failed, integrator_.failure());
   std::string& reason = run_.reason;

@@ -12,7 +12,7 @@
 
 namespace pintle {
 
-/// Times k·interval, k = 0, 1, …, the last one `until` itself; none if interval is 0.
+/// Times k·interval, k = 0, 1, …, the last being `until` itself; none if interval is 0.
 class Clock {
  public:
   Clock(double interval, double until);
@@ -26,7 +26,7 @@ class Clock {
   long k_ = 0, last_ = -1;
 };
 
-/// What is kept of the last row of each table, whoever takes the rows.
+/// Data kept from the last row of each table, even if a listener takes the rows.
 class RowFigures {
  public:
   RowFigures(const System&, Run&);
@@ -38,22 +38,22 @@ class RowFigures {
   std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
 };
 
-/// A run under way, which may be stopped at any time, read there, given new values of the scene's own states, and led on. With one call of
-/// `advance`, to the scene's end, it is what `simulate` does.
+/// A run in progress, which can be stopped at any time, inspected, given new values of the scene's own states, and continued. A single call
+/// of `advance` to the scene's end is what `simulate` does.
 class Simulation {
  public:
-  /// @pre all of them but the listeners outlive it
+  /// @pre all arguments except the listeners outlive it
   Simulation(const Scene&, const Model&, const Assembly&, const Listeners& = {}, const SavedState* from = nullptr);
   Simulation(const Simulation&) = delete;
 
-  /// On to time t, where a step ends, or to what ends the run before it. @returns false once the run is over
+  /// Advances to time t, where a step ends, or to an earlier end of the run. @returns false once the run is over
   bool advance(double t);
   double time() const { return integrator_.state().t; }
-  /// An own state of the scene, by its index in System::states, has this value from now on, as if an event had set it.
+  /// Sets an own state of the scene, by its index in System::states, from now on, as an event would.
   void set(int state, double value);
-  /// What trajectory.csv would have of now, in the order of its header. @returns no numbers where they cannot be evaluated
+  /// The values that trajectory.csv would have now, in the order of its header. @returns an empty list where they cannot be evaluated
   std::vector<double> now();
-  /// Ends the run here, with a last row. It is of no use afterwards.
+  /// Ends the run here, with a last row. The object cannot be used afterwards.
   Run finish();
 
  private:
@@ -85,15 +85,15 @@ class Simulation {
   const State& start_;
   Integrator integrator_;
   State sampled_;
-  double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last asked for [s]
+  double last_row_ = 0, asked_ = 0;  ///< times of the last row and of the output last requested [s]
   double saved_ = -1;                ///< time of the last state saved [s]
   DeflectionMonitor monitor_;
   RowFigures figures_;
   SlowContacts slow_;
   const SavedState* from_;
-  bool started_ = false;                ///< the books are open
+  bool started_ = false;                ///< the energy balance has begun
   bool opened_ = false, going_ = true;  ///< the start has been reported; steps succeed
-  bool countable_;                      ///< the energy at the start is a number
+  bool countable_;                      ///< the energy at the start is finite
 };
 
 }  // namespace pintle

@@ -5,8 +5,9 @@
 
 namespace pintle {
 
-// An impact slows down from its onset: |δ̇| ≤ δ̇₀, and damping is χ of the elastic force at most. Pressed in at twice the onset
-// rate, with damping above the elastic force, the law is no longer the one that was fitted to a restitution.
+// An impact slows down from its onset: |δ̇| ≤ δ̇₀, and the damping force is at most χ times the elastic force. If a contact is compressed
+// at more than twice the onset rate, with damping above the elastic force, the law is outside the range in which it was fitted to a
+// restitution.
 void SlowContacts::see(const System& system, const Step& step, const Equations& eq) {
   constexpr double faster = 2, outweighs = 1;
   for (std::size_t c = 0; c < seen_.size(); ++c) {
@@ -31,7 +32,7 @@ void SlowContacts::see(const System& system, const Step& step, const Equations& 
 }
 
 void SlowContacts::warn(const System& system, double in_play, std::vector<std::string>& warnings) const {
-  constexpr double little = 1e-2;  // of the energy in play
+  constexpr double little = 1e-2;  // relative to the energy in play
   for (std::size_t c = 0; c < seen_.size(); ++c) {
     const Seen& s = seen_[c];
     if (!(s.lost > little * in_play)) continue;

@@ -75,7 +75,7 @@ std::string points_csv(const StaticReport& r) {
   return out;
 }
 
-/// Every support's share of the reactions; a freedom held twice counts for the first.
+/// Each support's share of the reactions; a degree of freedom held twice counts for the first.
 std::vector<SupportReaction> share(const ElasticBody& e, const std::vector<NamedSupport>& supports, Eigen::VectorXd reactions) {
   const Eigen::MatrixX3d rigid = rigid_motions(e.model);
   std::vector<SupportReaction> out;
@@ -90,8 +90,8 @@ std::vector<SupportReaction> share(const ElasticBody& e, const std::vector<Named
   return out;
 }
 
-/// Section forces are those of the displacements; what acts between the nodes comes off: what an end of an element
-/// carries is K u − p there, turned into its axes, at end 1 with the other sign.
+/// Section forces are first those of the displacements; loads between the nodes are then subtracted: the end of an element carries K u − p,
+/// rotated into its axes, with the opposite sign at end 1.
 void take_off(const ElasticBody& e, const Eigen::MatrixXd& on_beams, Eigen::Matrix3Xd& forces) {
   const std::vector<int>& nodes = e.mesh.cells.front().nodes;
   for (Eigen::Index i = 0; i < on_beams.cols(); ++i) {

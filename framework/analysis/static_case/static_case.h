@@ -23,7 +23,7 @@ struct StaticReport {
   StressField stress;
   std::vector<SupportReaction> reactions;
   std::vector<PortDisplacement> ports;
-  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, as a reaction's
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, in the form of a reaction
   double greatest_displacement = 0;                ///< [m]
   Eigen::Vector2d displaced_at;
   double greatest_stress = 0;  ///< von Mises [Pa]
@@ -31,14 +31,13 @@ struct StaticReport {
   double seconds = 0;
 };
 
-/// @throws SceneError  no static case in the scene, no supports or too few, a load that does not fit
+/// @throws SceneError  no static case in the scene, no or too few supports, a load that does not fit
 StaticReport solve_case(const Scene&, const ElasticBody&);
 
-/// What an answer means, however it was found.
+/// Evaluates a solution, independently of how it was found.
 StaticReport report_of(const Scene&, const ElasticBody&, const std::vector<NamedSupport>&, const BodyLoad&, StaticSolution);
 
-/// static.vtu (displacement, stress components, von Mises, principal stresses), points.csv and, of beams,
-/// section_forces.csv; static.json
+/// static.vtu (displacement, stress components, von Mises, principal stresses), points.csv; for beams section_forces.csv; static.json
 void write_case(const std::filesystem::path& directory, const Scene&, const ElasticBody&, const StaticReport&);
 std::string static_json(const Scene&, const ElasticBody&, const StaticReport&);
 

@@ -24,11 +24,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr Index small = 400;          // freedoms that are solved for densely
-constexpr Index dense_limit = 4000;   // and so are this many, if a quarter of all pairs is asked for
-constexpr double share = 1e-10;       // shift over ΣK_ii/ΣM_ii
-constexpr double dense_share = 1e-6;  // the same where all pairs are found
-constexpr double cluster = 1e-6;      // a relative gap in which no count is attempted
+constexpr Index small = 400;          // up to this size solved densely
+constexpr Index dense_limit = 4000;   // up to this size solved densely if a quarter of all pairs is requested
+constexpr double share = 1e-10;       // shift relative to ΣK_ii/ΣM_ii
+constexpr double dense_share = 1e-6;  // the same if all pairs are computed
+constexpr double cluster = 1e-6;      // a relative gap below which no count is attempted
 
 void judge(const Sparse& K, const Sparse& M, const EigenOptions& o) {
   if (K.rows() != K.cols() || M.rows() != M.cols() || K.rows() != M.rows()) {
@@ -45,8 +45,7 @@ void judge(const Sparse& K, const Sparse& M, const EigenOptions& o) {
   if (o.count > massive) throw std::invalid_argument(too_many(o.count, massive));
 }
 
-// The pairs in the making: what is iterated on, and how many are wanted for the check to be
-// decisive.
+// State of the search: the iterated vectors, and the number of pairs needed for a conclusive check.
 struct Search {
   const Sparse &K, &M;
   const EigenOptions& options;
@@ -55,7 +54,7 @@ struct Search {
   Index block, wanted;
 };
 
-// Factors K − μM, with a larger shift where rounding hides the smaller.
+// Factors K − μM, with a larger shift if the smaller is lost in rounding.
 void factor_shifted(Search& s) {
   const int attempts = s.options.shift < 0 ? 1 : 3;
   for (int i = 0; i < attempts; ++i) {
@@ -74,7 +73,7 @@ VectorXd residuals(const Subspace& space, const Search& s, Index count) {
   return r;
 }
 
-// Where to count, above μ: in the gap above the last wanted pair; 0 if that is no gap.
+// Where to count, relative to μ: in the gap above the last wanted pair; 0 if there is no gap.
 double place_of_check(const Subspace& space, const Search& s) {
   const double last = 1 / space.theta()[s.wanted - 1];
   const double next =
@@ -83,8 +82,7 @@ double place_of_check(const Subspace& space, const Search& s) {
   return offset > cluster * last ? last + offset : 0;
 }
 
-// Eigenvalues below μ + `at`; moved down a little where that is an eigenvalue of a part of the
-// body.
+// Number of eigenvalues below μ + `at`, which is lowered slightly if it is an eigenvalue of a part of the body.
 int count_below(const Search& s, double at) {
   for (int i = 0;; ++i) {
     try {
@@ -116,12 +114,12 @@ bool check(const Subspace& space, Search& s, EigenPairs& out) {
   return true;
 }
 
-// Columns of Q; `width`: of the current block.
+// Number of columns of Q; `width`: of the current block.
 Index capacity_for(const Search& s, Index width) {
   return std::min(s.K.rows(), std::max(2 * s.wanted, s.wanted + 8 * std::max(s.block, width)));
 }
 
-// A subspace that A⁻¹M maps onto itself has nothing more to say: other vectors must.
+// Adds random vectors when the subspace has become invariant under A⁻¹M, so that iteration gives nothing new.
 void feed(Subspace& space, const Search& s, int iteration) {
   space.add_loads(random_loads(s.M, static_cast<int>(s.block), s.options.seed + static_cast<unsigned>(iteration)));
   if (space.width() == 0 && space.old() < s.options.count) throw std::invalid_argument(too_many(s.options.count, space.old()));
@@ -157,7 +155,7 @@ void iterate(Subspace& space, Search& s, EigenPairs& out) {
   out.reason = text.str();
 }
 
-// A plain one on the p vectors, which clears the shapes of the rounding of all before.
+// A plain iteration on the p vectors, which removes accumulated rounding from the shapes.
 void last_iteration(const Subspace& space, const Search& s, EigenPairs& out) {
   const Index p = std::min<Index>(s.options.count, space.old());
   MatrixXd Z;
@@ -176,7 +174,7 @@ EigenPairs eigen_lowest(const Sparse& K, const Sparse& M, const EigenOptions& op
   if (n <= small || (4 * p > n && n <= dense_limit) || 2 * p > n)
     return eigen_dense(K, M, options.count, options.shift < 0 ? options.shift : -dense_share * scale);
 
-  const Sparse mass = M.pruned(1.0, 0.0);  // assembled with K's pattern, it is half zeros
+  const Sparse mass = M.pruned(1.0, 0.0);  // assembled with K's pattern, half of its entries are zero
   Search s{K, mass, options, options.shift < 0 ? options.shift : -share * scale, {}, 0, p};
   s.block = std::clamp<Index>(2 + p / 3, 4, 16);
   factor_shifted(s);

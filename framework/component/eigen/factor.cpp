@@ -17,9 +17,9 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr Eigen::Index panel_columns = 64;  // right-hand sides solved at a time: bounds CHOLMOD's copies
+constexpr Eigen::Index panel_columns = 64;  // right-hand sides solved at a time: limits the memory of CHOLMOD's copies
 
-// CHOLMOD's view of our matrix; it reads only.
+// CHOLMOD's view of our matrix, read only.
 cholmod_sparse view(const Sparse& A) {
   cholmod_sparse v{};
   v.nrow = static_cast<std::size_t>(A.rows());
@@ -52,7 +52,7 @@ cholmod_dense view(double* x, Eigen::Index rows, Eigen::Index columns) {
 }  // namespace
 
 struct Factor::Data {
-  // The places of a matrix's entries, column by column.
+  // The positions of a matrix's entries, column by column.
   class Places {
    public:
     Places() = default;
@@ -99,8 +99,7 @@ struct Factor::Data {
                              (common.status == CHOLMOD_OUT_OF_MEMORY ? ", out of memory" : ""));
   }
 
-  // First column (in elimination order) whose pivot is lost in the rounding of A's diagonal; −1:
-  // none.
+  // First column (in elimination order) whose pivot is lost in the rounding of A's diagonal; −1: none.
   int lost_pivot(const Sparse& A) const {
     const int* first = static_cast<const int*>(L->super);
     const int* row_begin = static_cast<const int*>(L->pi);

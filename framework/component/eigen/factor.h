@@ -8,21 +8,20 @@
 
 namespace pintle {
 
-/// How a factor L is cut into supernodes: runs of columns with one pattern, children before
-/// parents. All arrays belong to the factor. Rows and columns count in the fill-reducing order.
+/// Division of a factor L into supernodes: runs of columns with one pattern, children before parents. All arrays belong to the factor. Rows
+/// and columns are numbered in the fill-reducing order.
 struct Supernodes {
-  int n;                 ///< freedoms
+  int n;                 ///< degrees of freedom
   int count;             ///< supernodes
   const int* first;      ///< first column of each, one past: count + 1
-  const int* row_begin;  ///< where its rows begin in `row`, count + 1
+  const int* row_begin;  ///< start of its rows in `row`, count + 1
   const int* row;        ///< ascending; its own columns first
-  const int* order;      ///< order[k]: the freedom that is eliminated k-th, n
+  const int* order;      ///< order[k]: the degree of freedom that is eliminated k-th, n
 };
 
-/// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order,
-/// supernodes, all right-hand sides at once. The order is kept, so that a second matrix of the same
-/// pattern costs the numbers alone. Order: AMD, and nested dissection where that leaves much fill
-/// (benchmarks/modes.cpp). Not to be shared between threads: solving uses workspace that is kept.
+/// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order, supernodes, all right-hand sides at once. The
+/// order is kept, so that for another matrix of the same pattern only the numbers are recomputed. Order: AMD, or nested dissection where
+/// AMD gives much fill (benchmarks/modes.cpp). Not to be shared between threads: solving uses a permanent workspace.
 class Factor {
  public:
   Factor();
@@ -33,9 +32,8 @@ class Factor {
   /// @throws  as compute
   void analyse(const Eigen::SparseMatrix<double>& A);
   /// Both triangles may be stored; the lower is read.
-  /// @returns false  A is not positive definite (`pivot`: the column where it failed). A pivot of
-  /// which
-  ///                 cancellation left less than `nothing` of the diagonal entry is none.
+  /// @returns false  A is not positive definite (`pivot`: the column where it failed). A pivot that cancellation has reduced to less than
+  /// `nothing` of the diagonal entry counts as zero.
   /// @throws std::invalid_argument  A is not square
   /// @throws std::runtime_error     out of memory
   bool compute(const Eigen::SparseMatrix<double>& A);
@@ -54,14 +52,13 @@ class Factor {
   std::unique_ptr<Data> data_;
 };
 
-/// Number of negative eigenvalues of a symmetric sparse matrix: the signs of the pivots of its LDLᵀ
-/// (Sylvester; Haynsworth's additivity over supernodes, pivoting inside each). Both triangles may
-/// be stored; the lower is read. Costs what a Cholesky factorisation costs; L is not kept.
-/// @throws std::runtime_error  a supernode is singular to rounding: the matrix, or a part of it
-/// that is
-///                             eliminated on the way, has an eigenvalue at zero. Shift it slightly.
+/// Number of negative eigenvalues of a symmetric sparse matrix: the signs of the pivots of its LDLᵀ (Sylvester; Haynsworth's additivity
+/// over supernodes, pivoting inside each). Both triangles may be stored; the lower is read. The cost is that of a Cholesky factorisation; L
+/// is not kept.
+/// @throws std::runtime_error  a supernode is singular to rounding: the matrix, or a part eliminated on the way, has an eigenvalue at zero.
+/// Shift it slightly.
 int negative_eigenvalues(const Eigen::SparseMatrix<double>& A);
-/// The same in the order of a factor of a matrix with A's pattern, which saves finding one.
+/// The same, using the order of a factor of a matrix with A's pattern, which saves computing one.
 int negative_eigenvalues(const Eigen::SparseMatrix<double>& A, const Supernodes&);
 
 }  // namespace pintle

@@ -1,6 +1,6 @@
 #pragma once
 
-// The BLAS and LAPACK routines in use, by their Fortran names.
+// The BLAS and LAPACK routines used, by their Fortran names.
 
 extern "C" {
 void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k, const double* alpha, const double* A,

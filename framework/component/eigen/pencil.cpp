@@ -19,10 +19,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double rounding = 1e-13;  // of the sizes that a sum cancels from
-constexpr Index spare = 8;          // vectors beyond those wanted in the last projection
+constexpr double rounding = 1e-13;  // relative to the terms of a sum
+constexpr Index spare = 8;          // vectors in addition to those wanted, in the last projection
 
-// |K||φ|: what Kφ is summed from.
+// |K||φ|: the size of the terms summed in Kφ.
 VectorXd summed_from(const Sparse& K, const VectorXd& phi) {
   VectorXd sum = VectorXd::Zero(phi.size());
   for (int j = 0; j < K.outerSize(); ++j)
@@ -30,7 +30,7 @@ VectorXd summed_from(const Sparse& K, const VectorXd& phi) {
   return sum;
 }
 
-// Rigid motions, the first of the pairs, and residuals.
+// Counts the rigid motions, which come first, and computes residuals.
 void measure(const Sparse& K, const MatrixXd& KX, const MatrixXd& MX, EigenPairs& pairs) {
   const Index count = pairs.lambda.size();
   pairs.residual.resize(count);
@@ -79,7 +79,7 @@ Sparse shifted(const Sparse& K, const Sparse& M, double mu) {
     Sparse::InnerIterator a(A, j);
     for (Sparse::InnerIterator m(M, j); m; ++m) {
       while (a && a.row() < m.row()) ++a;
-      if (!a || a.row() != m.row()) return K - mu * M;  // an entry that K lacks
+      if (!a || a.row() != m.row()) return K - mu * M;  // an entry missing in K
       a.valueRef() -= mu * m.value();
     }
   }
@@ -99,7 +99,7 @@ void refine(const Sparse& K, const Sparse& M, MatrixXd X, int count, EigenPairs&
   out.lambda = pairs.values.head(count);
   out.shapes = std::move(X);
   make_largest_positive(out.shapes);
-  // K and M times the shapes, but for the sign, which is of no matter here.
+  // K and M times the shapes, except the sign, which does not matter here.
   measure(K, KX, MX, out);
 }
 

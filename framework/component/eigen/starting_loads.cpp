@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 namespace {
 
 MatrixXd random_vectors(Index n, Index count, unsigned seed) {
-  std::mt19937 draw(seed);  // its numbers are the same everywhere; the standard's distributions are not
+  std::mt19937 draw(seed);  // its numbers are the same on every platform; the standard's distributions are not
   MatrixXd X(n, count);
   for (Index j = 0; j < count; ++j)
     for (Index i = 0; i < n; ++i) X(i, j) = static_cast<double>(draw()) / 2147483647.5 - 1;

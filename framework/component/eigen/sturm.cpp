@@ -16,7 +16,7 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double plus_one = 1, minus_one = -1;
-constexpr double singular = 1e-14;  // a pivot below this share of the entries it came from is rounding
+constexpr double singular = 1e-14;  // a pivot smaller than this relative to its original entries is rounding
 constexpr int strip = 128;          // columns updated at once where the pivot block is indefinite
 
 // Lower triangle of A in elimination order, by columns.
@@ -49,7 +49,7 @@ struct Ordered {
   }
 };
 
-// A dense matrix of `rows` rows with the first `columns` of them to be eliminated; lower triangle.
+// A dense matrix with `rows` rows, of which the first `columns` are to be eliminated; lower triangle.
 class Front {
  public:
   // Leaves the Schur complement in the trailing block. @returns negative pivots
@@ -107,7 +107,7 @@ class Front {
     return largest;
   }
 
-  // Signs of D's blocks of one and two; −1 where a block is singular to rounding.
+  // Negative signs of D's blocks of one and two; −1 where a block is singular to rounding.
   int count_negative(int columns, double largest) const {
     int negative = 0;
     for (int j = 0; j < columns; ++j) {
@@ -130,8 +130,7 @@ class Front {
   std::vector<int> pivots_;
 };
 
-// The fronts of one matrix, children before parents, and the Schur complements that wait for their
-// parents on a stack.
+// The fronts of one matrix, children before parents, and a stack of the Schur complements that wait for their parents.
 class Elimination {
  public:
   Elimination(const Sparse& A, const Supernodes& super) : super_(super), lower_(A, super), place_(static_cast<std::size_t>(super.n), -1) {
@@ -157,7 +156,7 @@ class Elimination {
   double* column(int j, int height) { return F_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(height); }
   int place(int row) const { return place_[static_cast<std::size_t>(row)]; }
 
-  // The front of s: zero, and the entries of A in its columns.
+  // The front of s: zero except the entries of A in its columns.
   void open(int s) {
     const int height = rows(s);
     const int* row = super_.row + super_.row_begin[s];
@@ -170,7 +169,7 @@ class Elimination {
     }
   }
 
-  // The topmost of the stack goes into the front of s.
+  // Adds the top of the stack to the front of s.
   void add_child(int s) {
     const int child = waiting_.back(), height = rows(s);
     const int* row = super_.row + super_.row_begin[child] + columns(child);
@@ -197,8 +196,8 @@ class Elimination {
 
   const Supernodes& super_;
   Ordered lower_;
-  std::vector<int> place_;  // of each row of the matrix in the front at hand
-  std::vector<double> F_;   // that front
+  std::vector<int> place_;  // of each row of the matrix in the present front
+  std::vector<double> F_;   // the present front
   std::vector<double> stack_;
   std::vector<int> waiting_;  // supernodes on the stack
   Front front_;

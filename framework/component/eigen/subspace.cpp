@@ -14,10 +14,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double nothing = 1e-13;   // of a vector: what is left of it is rounding
-constexpr double cancelled = 1e-4;  // of a squared length: subtract once more
-constexpr double even = 1e-2;       // of a length: one Gram matrix makes such a block orthonormal to 1e-12
-constexpr double thin = 1e-6;       // of a squared length: a direction that a Gram matrix resolves
+constexpr double nothing = 1e-13;   // relative to a vector: a remainder below this is rounding
+constexpr double cancelled = 1e-4;  // relative to a squared length: subtract once more
+constexpr double even = 1e-2;       // relative to a length: one Gram matrix makes such a block orthonormal to 1e-12
+constexpr double thin = 1e-6;       // relative to a squared length: a direction that a Gram matrix resolves
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void Subspace::reserve(Index capacity) {
   T_.conservativeResizeLike(MatrixXd::Zero(capacity, capacity));
 }
 
-// Takes from Z what lies in Q, E = QᵀMZ, until nothing more comes. @returns ZᵀMZ of what is left
+// Subtracts from Z its components in Q, E = QᵀMZ, until nothing remains to subtract. @returns ZᵀMZ of the remainder
 MatrixXd Subspace::clear(MatrixXd& Z, MatrixXd& E) {
   MatrixXd G;
   E = MatrixXd::Zero(used_, Z.cols());
@@ -48,7 +48,7 @@ MatrixXd Subspace::clear(MatrixXd& Z, MatrixXd& E) {
   return G;
 }
 
-// Appends Z V, made orthonormal, to Q and M times it to MQ. @returns the factor U: Z V = Q_new U
+// Appends Z V, made orthonormal, to Q, and M times it to MQ. @returns the factor U: Z V = Q_new U
 MatrixXd Subspace::append(const MatrixXd& Z, const MatrixXd& V, const VectorXd& length) {
   const Index fresh = V.cols();
   auto added = Q_.middleCols(used_, fresh);
@@ -67,7 +67,7 @@ MatrixXd Subspace::append(const MatrixXd& Z, const MatrixXd& V, const VectorXd& 
   return MatrixXd(polish.matrixU()) * length.asDiagonal();
 }
 
-// Appends to Q what of Z, columns of length about one, is new. @returns E with Z = Q E
+// Appends to Q the new directions of Z, whose columns have a length of about one. @returns E with Z = Q E
 MatrixXd Subspace::absorb(MatrixXd& Z) {
   MatrixXd E;
   const Spectrum gram = spectrum(clear(Z, E));
@@ -84,8 +84,7 @@ MatrixXd Subspace::absorb(MatrixXd& Z) {
   E.bottomRows(used_ - before) = U * V.transpose();
   if (rest == 0) return E;
 
-  // A Gram matrix says little of directions this much shorter than the longest: once more with them
-  // alone.
+  // A Gram matrix is inaccurate for directions this much shorter than the longest: these are repeated alone.
   const MatrixXd W = gram.vectors.leftCols(rest);
   MatrixXd left = MatrixXd::Zero(Z.rows(), rest);
   add(1, Z, W, left);
@@ -112,7 +111,7 @@ void Subspace::step() {
   const Index b = width(), start = old_;
   A_.solve_into(MQ_, Z_);
   solves_ += b;
-  // What the recurrence says of Z, first; absorb then removes what rounding left.
+  // First removes what the recurrence predicts for Z; absorb then removes what rounding left.
   MatrixXd H = MatrixXd::Zero(used_, b);
   H.topRows(old_) = C_.transpose();
   H.bottomRows(b) = inner(MQ_, Z_);
@@ -135,15 +134,14 @@ void Subspace::step() {
   coupled_ = start;
 }
 
-// From T⁻¹, as the wanted values are small in T where there are rigid motions and would drown in
-// its rounding.
+// From T⁻¹: with rigid motions the wanted values are small in T and would be lost in its rounding.
 void Subspace::project() {
   const MatrixXd T = T_.topLeftCorner(old_, old_);
   const Eigen::LLT<MatrixXd> factor(T);
   if (factor.info() == Eigen::Success) {
     const MatrixXd inverse = factor.matrixL().solve(MatrixXd::Identity(old_, old_));
     S_ = spectrum(inner(inverse, inverse)).vectors;
-  } else {  // directions of freedoms without mass
+  } else {  // directions of massless degrees of freedom
     S_ = spectrum(T).vectors.rowwise().reverse();
   }
   theta_ = S_.cwiseProduct(T * S_).colwise().sum();

@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 using Sparse = Eigen::SparseMatrix<double>;
 using Tall = Eigen::Ref<const MatrixXd>;
 
-constexpr int lanes = 8;            // columns of one sparse product
-constexpr Index panel_rows = 2048;  // rows turned at a time
+constexpr int lanes = 8;            // columns of a sparse product at a time
+constexpr Index panel_rows = 2048;  // rows transformed at a time
 
 int leading(Index stride, Index rows) { return static_cast<int>(std::max<Index>(1, std::max(stride, rows))); }
 

@@ -37,7 +37,7 @@ Incidence incidence(const FeModel& model) {
   return all;
 }
 
-// Adds an element's matrix. In every column of a node the rows of another start equally deep.
+// Adds an element's matrix. In each column of a node, the rows of another node begin at the same offset.
 template <class E>
 void add(Sparse& A, const std::vector<int>& begin, const int* node, const Square<E>& a) {
   constexpr int d = E::dofs_per_node;
@@ -84,7 +84,7 @@ void add_lumps(const FeModel& model, Sparse& A, Eigen::Matrix3d (*of)(const Poin
   }
 }
 
-// B and, in its leading rows and columns, the rows and columns of A in `keep`.
+// B plus, in its leading rows and columns, the rows and columns of A in `keep`.
 Sparse restricted_plus(const Sparse& A, const std::vector<int>& keep, const Sparse& B) {
   std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
   for (std::size_t k = 0; k < keep.size(); ++k) place[static_cast<std::size_t>(keep[k])] = static_cast<int>(k);
@@ -224,8 +224,8 @@ Sparse restricted(const Sparse& A, const std::vector<int>& keep) {
   return restricted_plus(A, keep, Sparse(n, n));
 }
 
-// L = P + Q: what stays and what couplings give. Q has few rows, so that all but PᵀAP is small:
-// LᵀAL = PᵀAP + PᵀAQ + (QᵀA)L, where QᵀA asks for few rows of A.
+// L = P + Q: the uncoupled part and the couplings. Q has few rows, so everything except PᵀAP is small: LᵀAL = PᵀAP + PᵀAQ + (QᵀA)L, where
+// QᵀA needs only few rows of A.
 Sparse independent(const FeModel& model, Sparse A) {
   if (model.L.size() == 0) return A;
   std::vector<int> stays;

@@ -8,17 +8,17 @@ namespace pintle {
 
 enum class MassKind { consistent, lumped };
 
-/// Sparse matrices of a model, N × N in nodal freedoms, both triangles stored. Which nodes meet is
-/// found once; each matrix is then a pass over the elements that only adds values. K, M, G and K_g
-/// have one pattern, zeros of it included, rows ascending. Time and memory are linear in elements.
+/// Sparse matrices of a model, N × N in nodal freedoms, both triangles stored. The pattern is found once; each matrix is then a pass over
+/// the elements that only adds values. K, M, G and K_g have the same pattern, including its zeros, with ascending rows. Time and memory are
+/// linear in the number of elements.
 class Assembler {
  public:
   explicit Assembler(const FeModel&);  ///< the model must outlive it
   Sparse stiffness() const;            ///< symmetric
-  /// Symmetric, with the lumps. Lumped: the diagonal alone is stored.
+  /// Symmetric, including the lumps. Lumped: only the diagonal is stored.
   Sparse mass(MassKind = MassKind::consistent) const;
-  Sparse skew_mass() const;  ///< G, skew, with the lumps
-  /// K_g of the stress that nodal displacement u, N, causes. Symmetric.
+  Sparse skew_mass() const;  ///< G, skew-symmetric, including the lumps
+  /// K_g for the stress caused by nodal displacements u, N. Symmetric.
   Sparse geometric_stiffness(const Eigen::VectorXd& u) const;
 
  private:
@@ -26,10 +26,10 @@ class Assembler {
 
   const FeModel& model_;
   std::vector<int> neighbour_begin_,
-      neighbour_;  ///< nodes that share an element with each, ascending
+      neighbour_;  ///< nodes that share an element with each node, ascending
 };
 
-/// LᵀAL; A itself where nothing is coupled. Matrices of one pattern keep one pattern.
+/// LᵀAL; A itself where nothing is coupled. Matrices with the same pattern keep a common pattern.
 Sparse independent(const FeModel&, Sparse A);
 
 /// Rows and columns of A in `keep`, which ascends.

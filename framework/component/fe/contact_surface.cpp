@@ -19,9 +19,9 @@ using Eigen::Vector2d;
 using std::numbers::pi;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr double round_enough = 1e-5;  // corners off their circle, over its radius
+constexpr double round_enough = 1e-5;  // distance of corners from their circle, relative to its radius
 
-/// Of two places along a curve: how far the second is from the first, the short way round a circle.
+/// Distance from the first to the second of two places along a curve, the short way round on a circle.
 double apart(const ContactCurve& c, double from, double to) { return c.straight ? to - from : std::remainder(to - from, 2 * pi); }
 
 Vector2d radial(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -33,12 +33,12 @@ double place_of(const ContactCurve& c, const Vector2d& x) {
 Vector2d point_at(const ContactCurve& c, double s) {
   return c.straight ? Vector2d(c.center + s * c.along) : Vector2d(c.center + std::abs(c.radius) * radial(s));
 }
-/// Out of the body.
+/// Outward normal of the body.
 Vector2d normal_at(const ContactCurve& c, double s) {
   if (c.straight) return {c.along.y(), -c.along.x()};
   return c.radius > 0 ? radial(s) : Vector2d(-radial(s));
 }
-/// Distance of a point from the surface, above 0 outside the body.
+/// Distance of a point from the surface, positive outside the body.
 double distance(const ContactCurve& c, const Vector2d& x) {
   if (c.straight) return normal_at(c, 0).dot(x - c.center);
   const double r = (x - c.center).norm();
@@ -46,7 +46,8 @@ double distance(const ContactCurve& c, const Vector2d& x) {
 }
 double length_per_place(const ContactCurve& c) { return c.straight ? 1 : std::abs(c.radius); }
 
-/// Along the curve at ξ from −1 to 1, as the side's nodes have it; its derivative; and ξ at a place.
+/// Position along the curve as a function of ξ from −1 to 1, interpolated from the side's nodes; its derivative; and ξ for a given
+/// position.
 double bend(const ContactSide& side) { return side.middle - (side.from + side.to) / 2; }
 double place_at(const ContactSide& side, double xi) {
   return side.from + (1 + xi) / 2 * (side.to - side.from) + bend(side) * (1 - xi * xi);
@@ -58,13 +59,13 @@ double xi_at(const ContactSide& side, double from_start) {
   return xi;
 }
 
-/// N of a side's nodes.
+/// Shape functions N of a side's nodes.
 std::array<double, 3> side_shape(const ContactSide& side, double xi) {
   if (side.nodes == 2) return {(1 - xi) / 2, (1 + xi) / 2, 0};
   return {xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi};
 }
 
-/// Two surfaces, seen from the sides of the first.
+/// Two surfaces, as seen from the sides of the first.
 class Facing {
  public:
   Facing(const ContactSurface& first, const ContactSurface& second, const Vector2d& shift)
@@ -77,7 +78,7 @@ class Facing {
     return normal_at(first_.curve, place_on_first(side, xi)).dot(normal_at(second_.curve, place_on_second(side, xi))) < 0;
   }
 
-  /// The side of the second surface at a place along it.
+  /// The side of the second surface at a position along it.
   const ContactSide* opposite(double place) const {
     for (const ContactSide& s : second_.sides) {
       const double whole = apart(second_.curve, s.from, s.to), there = apart(second_.curve, s.from, place);
@@ -86,7 +87,7 @@ class Facing {
     return nullptr;
   }
 
-  /// Where ends of the second surface's sides lie opposite, ξ ascending, with −1 and 1.
+  /// Values of ξ opposite the ends of the second surface's sides, ascending, with −1 and 1.
   std::vector<double> cuts(const ContactSide& side) const {
     const double begin = place_on_second(side, -1), width = apart(second_.curve, begin, place_on_second(side, 1));
     std::vector<double> out{-1, 1};
@@ -146,7 +147,7 @@ ContactSurface contact_surface(const Mesh& mesh, const std::vector<Cells>& sides
 
 namespace {
 
-/// Adds the integrals over what of one side lies opposite one side.
+/// Adds the integrals over the part of one side that is opposite another side.
 class RowSums {
  public:
   RowSums(const FeModel& first, const FeModel& second, std::size_t rows)
@@ -226,7 +227,7 @@ ContactRows contact_rows(const FeModel& first_body, const ContactSurface& first,
       whole[r] += std::abs(first.sides[i].to - first.sides[i].from) / 2 * length_per_place(first.curve) * first.thickness;
   }
 
-  // Hats of which hardly anything lies opposite are left out.
+  // Hat functions with hardly anything opposite are left out.
   std::vector<int> kept(along.size(), -1);
   int count = 0;
   for (std::size_t r = 0; r < along.size(); ++r)

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Smallest over largest extent of a rim, as seen from its centre, that still fixes a rotation.
+// Smallest ratio of the extents of a rim, as seen from its centre, that still determines a rotation.
 constexpr double degenerate = 1e-9;
 
 template <class... Parts>
@@ -61,8 +61,8 @@ CoupledShape coupled_shape(const FeModel& model, const RimPort& rim) {
   return shape;
 }
 
-// p = C u over the rim's freedoms [u_x u_y] node by node: the rigid motion nearest to u, as
-// [u_x u_y φ] of the port. The rotation's row is in rad.
+// p = C u over the rim's freedoms [u_x u_y] node by node: the rigid motion that best fits u, as [u_x u_y φ] of the port. The row of the
+// rotation is in rad.
 Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const CoupledShape& shape) {
   const auto k = static_cast<Index>(rim.nodes.size());
   Eigen::Matrix3Xd C(3, 2 * k);
@@ -79,10 +79,10 @@ Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const 
   return C;
 }
 
-// What becomes of a rim's nodal freedoms.
+// Treatment of a rim's nodal freedoms.
 struct Rim {
   std::vector<int> freedoms;   // nodal, of the rim, [u_x u_y] node by node
-  std::array<int, 3> given{};  // average: places in `freedoms` that the others and the port give
+  std::array<int, 3> given{};  // average: indices in `freedoms` of those determined by the others and the port
   Eigen::Matrix3Xd C;          // average
 };
 

@@ -19,9 +19,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// Elements of one kind.
 template <class E>
 struct Block {
-  std::vector<E> properties;  ///< one for all, or one an element
-  std::vector<int> nodes;     ///< E::nodes an element
-  std::vector<int> cells;     ///< which cell of the mesh, counted through its blocks
+  std::vector<E> properties;  ///< one for all, or one per element
+  std::vector<int> nodes;     ///< E::nodes per element
+  std::vector<int> cells;     ///< index of the cell in the mesh, over all its blocks
   int size() const { return static_cast<int>(nodes.size()) / E::nodes; }
   const E& element(int i) const { return properties[properties.size() == 1 ? 0 : static_cast<std::size_t>(i)]; }
   Coords<E> coords(int i, const Eigen::Matrix2Xd& x) const {
@@ -35,7 +35,7 @@ using AnyBlock =
     std::variant<Block<Bar>, Block<BeamEuler>, Block<BeamTimoshenko>, Block<Triangle3>, Block<Triangle6>, Block<Quadrilateral4>,
                  Block<Quadrilateral4Plain>, Block<Quadrilateral8>, Block<Quadrilateral8Reduced>, Block<Quadrilateral9>>;
 template <class E>
-inline constexpr bool is_line = E::stress_rows == 3;  ///< bars and beams; else plane
+inline constexpr bool is_line = E::stress_rows == 3;  ///< bars and beams; otherwise plane
 
 /// A mass fixed to a node.
 struct Lump {
@@ -43,44 +43,42 @@ struct Lump {
   PointMass mass;
 };
 
-/// Where a mechanism may take hold of a body: a node, or the middle of a hole whose rim is coupled
-/// to it. Its displacement and rotation are freedoms of their own, so that joints see three
-/// numbers.
+/// A point where a mechanism may connect to a body: a node, or the middle of a hole whose rim is coupled to it. Its displacement and
+/// rotation are separate freedoms, so that joints use three numbers.
 struct Port {
   std::string name;
   Eigen::Vector2d x;  ///< body axes [m]
-  /// Independent freedoms u_x, u_y, φ; φ −1 where it has no rotation.
+  /// Independent freedoms u_x, u_y, φ; φ = −1 where it has no rotation.
   int freedom[3] = {-1, -1, -1};
 };
 
-/// How the rim of a hole follows the port in its middle.
+/// How the rim of a hole is coupled to the port in its middle.
 enum class Coupling {
   rigid,    ///< the rim moves as a rigid ring
-  average,  ///< the port moves as the rim does on average (weighted by length); the rim stays soft
+  average,  ///< the port follows the average motion of the rim (weighted by length); the rim stays flexible
 };
 
-/// A body made of elements. Nodal freedoms (N of them) come node by node; the independent ones (n)
-/// are those left when couplings have tied rims to ports: u = L ũ. They keep the nodal order, then
-/// come u_x, u_y, φ of each rim's port. Theory: docs/theory/couplings.md.
+/// A body made of elements. Its N nodal freedoms are ordered node by node; the n independent ones are those that remain after couplings
+/// have tied rims to ports: u = L ũ. They keep the nodal order, followed by u_x, u_y, φ of each rim's port. Theory:
+/// docs/theory/couplings.md.
 struct FeModel {
   Eigen::Matrix2Xd x;  ///< nodes, body axes [m]
   std::vector<AnyBlock> blocks;
-  std::vector<Lump> lumps;       ///< a lump with J > 0 sits on a node with a rotation
+  std::vector<Lump> lumps;       ///< a lump with J > 0 must be at a node with a rotation
   std::vector<int> begin;        ///< first nodal freedom of each node, one past; 2 or 3 each
   Sparse L;                      ///< N × n; 0 × 0 stands for the identity
-  std::vector<int> independent;  ///< of each nodal freedom, −1 where L gives it; empty: all its own
+  std::vector<int> independent;  ///< for each nodal freedom, −1 where L determines it; empty: all are independent
   std::vector<Port> ports;       ///< those at nodes, then those of rims
   int N() const { return begin.back(); }
   int n() const { return L.size() == 0 ? N() : static_cast<int>(L.cols()); }
-  const Port* port(std::string_view name) const;  ///< nullptr: there is none
-  /// The independent freedom that a nodal one is, or −1.
+  const Port* port(std::string_view name) const;  ///< nullptr: there is none of this name
+  /// The independent freedom that equals a nodal one, or −1.
   int independent_of(int nodal) const { return independent.empty() ? nodal : independent[static_cast<std::size_t>(nodal)]; }
 };
 
-/// Numbers the freedoms of blocks and lumps; no ports yet. A node has a rotation if an element
-/// there has one.
-/// @throws std::invalid_argument  a node without an element or one that is not there, an element
-///         count that does not fit its properties, a lump's J on a node without rotation
+/// Numbers the freedoms of blocks and lumps; no ports yet. A node has a rotation if one of its elements has one there.
+/// @throws std::invalid_argument  a node without an element or one that does not exist, a number of elements that does not fit the
+/// properties, a lump's J on a node without rotation
 FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<Lump> lumps = {});
 
 /// A port at a node.
@@ -97,11 +95,11 @@ struct RimPort {
   Coupling coupling = Coupling::rigid;
 };
 /// Adds ports to a model that has none, and L.
-/// @throws std::invalid_argument  two ports have one name; two rims share a node, or a port sits on
-///         a node of a rim; a rim's nodes or weights do not fix three motions
+/// @throws std::invalid_argument  two ports have one name; two rims share a node, or a port is at a node of a rim; a rim's nodes or weights
+/// do not determine a rigid motion
 void add_ports(FeModel&, const std::vector<NodePort>&, const std::vector<RimPort>&);
 
-/// An element's freedoms out of a nodal field u, N; `node`: its nodes.
+/// An element's freedoms, taken from a nodal field u, N; `node`: its nodes.
 template <class E>
 Freedoms<E> gathered(const FeModel& model, const int* node, const Eigen::VectorXd& u) {
   Freedoms<E> e;
@@ -111,8 +109,8 @@ Freedoms<E> gathered(const FeModel& model, const int* node, const Eigen::VectorX
   return e;
 }
 
-/// Nodal fields, N each: unit translations T, position x, unit rotation R (about the origin).
-/// Rotations of nodes are 0, 0 and 1 in them.
+/// Nodal fields, N each: unit translations T, position x, unit rotation R (about the origin). The rotations of nodes in them are 0, 0 and
+/// 1.
 struct RigidFields {
   Eigen::MatrixX2d T;
   Eigen::VectorXd x, R;
@@ -121,14 +119,14 @@ RigidFields rigid_fields(const FeModel&);
 /// The same in independent freedoms, n × 3: translations along x and y, rotation about the origin.
 /// L times these are T and R.
 Eigen::MatrixX3d rigid_motions(const FeModel&);
-/// u = L ũ, N × k, and its transpose on forces, which keeps their resultant and moment.
+/// u = L ũ, N × k, and its transpose applied to forces, which preserves their resultant and moment.
 Eigen::MatrixXd nodal(const FeModel&, const Eigen::MatrixXd& independent);
 Eigen::VectorXd independent_load(const FeModel&, const Eigen::VectorXd& nodal_load);
 
 /// Length of the diagonal of the box around the nodes [m].
 double extent(const FeModel&);
 
-/// Rigid motions, n × 3, of like size: rotation about the middle of the nodes, scaled by 1/extent.
+/// Rigid motions, n × 3, of similar size: the rotation is about the middle of the nodes and scaled by 1/extent.
 Eigen::MatrixX3d scaled_rigid_motions(const FeModel&);
 
 }  // namespace pintle

@@ -23,7 +23,7 @@ struct Kind {
   CellShape shape;
   AnyBlock (*make)(const Cells&, int, const PlaneProperties&);
 };
-// The first of a shape is what that shape becomes unless another is named.
+// The first kind of a shape is its default.
 const std::array<Kind, 7> kinds{{
     {"triangle3", CellShape::triangle3, block<Triangle3>},
     {"triangle6", CellShape::triangle6, block<Triangle6>},
@@ -43,7 +43,7 @@ bool may_stand_among(CellShape shape, CellShape named) {
   }
 }
 
-// ∫ N_i ds of a side's nodes: what a unit traction along x puts on them.
+// ∫ N_i ds of a side's nodes: their share of a unit traction along x.
 Eigen::VectorXd shares(const Eigen::Matrix2Xd& x) {
   const Eigen::VectorXd load = side_load(x, {1, 0}, 1);
   return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<2>>(load.data(), x.cols());

@@ -20,11 +20,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Rank of held rigid motions, about their part's middle and in units of its size. Squared, it stays
-// above rounding; supports closer together than this hold no turn.
+// Rank tolerance for restrained rigid motions, relative to the middle and size of their part. Its square is above rounding; supports closer
+// together than this do not restrain rotation.
 constexpr double held_rank = 1e-7;
-// Least eigenvalue of K over its diagonal. A mechanism leaves less than rounding; a cantilever of N
-// beams has 1/N⁴, below which a solution has no digit left.
+// Smallest eigenvalue of K relative to its diagonal. For a mechanism it is below rounding; for a cantilever of N beams it is 1/N⁴, below
+// which a solution has no accurate digit.
 constexpr double mechanism = 1e-15;
 
 template <class Error, class... Parts>
@@ -40,7 +40,7 @@ void hold_freedoms(Supports& supports, const int (&freedom)[3], const bool (&hel
     if (held[d]) supports.freedoms.push_back(freedom[d]);
 }
 
-// Connected parts of the free body: of each freedom of A.
+// Connected parts of the free body: part of each freedom of A.
 int parts(const Sparse& A, std::vector<int>& part) {
   part.assign(static_cast<std::size_t>(A.cols()), -1);
   std::vector<int> open;
@@ -64,7 +64,7 @@ int parts(const Sparse& A, std::vector<int>& part) {
   return count;
 }
 
-// Where each independent freedom sits: a node's or a port's place.
+// Position of each independent freedom: that of its node or port.
 Eigen::Matrix2Xd places(const FeModel& model) {
   Eigen::Matrix2Xd at(2, model.n());
   for (Eigen::Index i = 0; i < model.x.cols(); ++i)
@@ -76,7 +76,7 @@ Eigen::Matrix2Xd places(const FeModel& model) {
   return at;
 }
 
-// Names a motion [x, y, turn about `middle`] that the supports leave, the turn in units of `size`.
+// Describes a motion [x, y, rotation about `middle`] that the supports allow, the rotation in units of `size`.
 std::string name_of(const Vector3d& motion, const Vector2d& middle, double size) {
   std::ostringstream words;
   words.precision(4);
@@ -93,8 +93,7 @@ std::string name_of(const Vector3d& motion, const Vector2d& middle, double size)
   return words.str();
 }
 
-// What of a part's rigid motions `held` (rows of three, scaled) leaves free, in words; empty:
-// nothing.
+// The rigid motions of a part that `held` (rows of three, scaled) leaves free, in words; empty: none.
 std::string free_motions(const Eigen::MatrixX3d& held, const Vector2d& middle, double size) {
   if (held.rows() == 0) return "to move along x, to move along y and to turn";
   const Eigen::Matrix3d gram = held.transpose() * held;
@@ -102,7 +101,7 @@ std::string free_motions(const Eigen::MatrixX3d& held, const Vector2d& middle, d
   const Vector3d least = eigen.eigenvalues() / eigen.eigenvalues()[2];
   if (least[0] > held_rank * held_rank) return "";
   if (least[1] > held_rank * held_rank) return name_of(eigen.eigenvectors().col(0), middle, size);
-  // Two motions are left: one moves along, the other turns, unless it is turning that is held.
+  // Two motions are left: a translation and a rotation, unless it is the rotation that is restrained.
   const Vector3d h = eigen.eigenvectors().col(2);
   if (h.head<2>().norm() < 1e-6) return "to move along x and to move along y";
   const Vector3d slide = Vector3d(-h[1], h[0], 0).normalized();
@@ -141,7 +140,7 @@ void validate_supports(const FeModel& model, const Sparse& A, const std::vector<
   }
 }
 
-// Inverse iteration on K φ = λ diag(K) φ from a fixed start: the motion that K resists least.
+// Inverse iteration on K φ = λ diag(K) φ from a fixed start: the motion with the least stiffness.
 struct Loosest {
   double lambda;
   Eigen::Index freedom;
@@ -169,7 +168,7 @@ Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
                            ") in ", name, "; use beams instead of hinged bars, or more bars");
 }
 
-// Factors A, or says what moves.
+// Factors A, or reports what moves.
 Factor factored(const FeModel& model, Sparse A, const std::vector<int>& free) {
   const double largest = A.diagonal().maxCoeff();
   const VectorXd scale = A.diagonal().cwiseMax(largest * std::numeric_limits<double>::epsilon());
@@ -252,7 +251,7 @@ StaticSolution solve_static(const FeModel& model, const Sparse& K, const Support
   VectorXd f = independent_load;
   if (!free.empty()) {
     const Factor factor = factored(model, restricted(A, free), free);
-    // Refined at most twice: the first step of refinement leaves rounding, the second shows it.
+    // Refined at most twice: the first refinement reduces the error to rounding, the second shows this.
     VectorXd rest = picked(independent_load, free);
     const double start = rest.norm();
     double before = std::numeric_limits<double>::infinity();

@@ -28,7 +28,7 @@ Counts counts(const FeModel& model) {
   return n;
 }
 
-// Fills a field block by block; `line` and `point` are where the next element's columns begin.
+// Fills a field block by block; `line` and `point` are the first columns of the next element.
 struct Filling {
   const FeModel& model;
   const Eigen::VectorXd& u;
@@ -61,12 +61,12 @@ struct Filling {
     }
   }
 
-  /// Plane elements of one material and thickness: their stress is continuous but for the error of the mesh.
+  /// Plane elements of one material and thickness: their stress is continuous up to the mesh error.
   struct Sheet {
     PlaneProperties of;
     bool even;                  // all its elements have these properties
-    Eigen::Matrix4Xd sum;       // over the elements that meet at a node
-    std::vector<int> meet;      // how many those are
+    Eigen::Matrix4Xd sum;       // over the elements at a node
+    std::vector<int> meet;      // number of these
     std::vector<int> nodes{};   // of every element in turn
     std::vector<double> own{};  // von Mises stress of the element there
   };

@@ -20,9 +20,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double hardly_held = 1e-4;  // of a motion, by contacts or supports
+constexpr double hardly_held = 1e-4;  // relative size of a motion that contacts or supports restrain
 
-/// Rigid motions, n × r, of like size, that leave the held freedoms where they are.
+/// Rigid motions, n × r, of similar size, that do not move the fixed freedoms.
 MatrixXd motions_left(const FeModel& model, const Supports& supports) {
   const MatrixXd all = scaled_rigid_motions(model);
   if (supports.freedoms.empty()) return all;
@@ -38,7 +38,7 @@ MatrixXd motions_left(const FeModel& model, const Supports& supports) {
 
 }  // namespace
 
-/// A body's answer to loads in balance, u = G f + Z q, with as many more freedoms held as motions are left.
+/// Response of a body to loads in equilibrium, u = G f + Z q, with one additional fixed freedom for each remaining motion.
 class TouchingBodies::Held {
  public:
   explicit Held(const TouchingBody& b) : model(*b.model), K(independent(*b.model, *b.K)), Z(motions_left(*b.model, b.supports)) {
@@ -59,7 +59,7 @@ class TouchingBodies::Held {
     return u;
   }
 
-  /// Displacements under forces in balance, refined once, moved by q.
+  /// Displacements under forces in equilibrium, refined once, plus the motion q.
   StaticSolution answer(const VectorXd& load, const VectorXd& q) const {
     VectorXd u = solve(load);
     u += solve(load - K * u) + Z * q;
@@ -77,7 +77,7 @@ class TouchingBodies::Held {
 
   const FeModel& model;
   Sparse K;    ///< independent freedoms
-  MatrixXd Z;  ///< motions left, n × r
+  MatrixXd Z;  ///< remaining motions, n × r
 
  private:
   std::vector<int> free_, supported_;
@@ -135,7 +135,7 @@ struct Balance {
   VectorXd b, h;
   VectorXd lambda = {}, q = {}, gap = {};
 
-  /// By Lemke's method, q as the difference of two that are not below zero. All over the scale of A and b.
+  /// By Lemke's method, with q as the difference of two nonnegative vectors. Everything is scaled by A and b.
   bool start(double stiff, double long_one) {
     const Index m = b.size(), r = h.size();
     MatrixXd M = MatrixXd::Zero(m + 2 * r, m + 2 * r);
@@ -149,7 +149,7 @@ struct Balance {
     return z.has_value();
   }
 
-  /// The system of those that touch.
+  /// Solves the linear system of the rows in contact.
   void solve(const std::vector<Index>& touch, double stiff) {
     const auto k = static_cast<Index>(touch.size());
     const Index r = h.size();

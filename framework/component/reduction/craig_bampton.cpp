@@ -10,16 +10,16 @@
 namespace pintle {
 namespace {
 
-/// Interface displacements that are no rigid motions, b × (b − 3).
+/// Interface displacements that are not rigid motions, b × (b − 3).
 Eigen::MatrixXd straining(const Component& c, const std::vector<int>& interface) {
   const auto b = static_cast<Eigen::Index>(interface.size());
   if (b >= 3) {
     Eigen::MatrixXd rigid = scaled_rigid_motions(c.model)(interface, Eigen::all);
-    // Ports that span less than 1e-8 of the body would leave nothing of K⁻¹ but rounding.
+    // For ports closer together than 1e-8 of the body's size, K⁻¹ would contain only rounding.
     const auto spans = [](const auto& svd) { return svd.singularValues()[2] > 1e-8 * svd.singularValues()[0]; };
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeFullU);
     if (spans(svd)) return svd.matrixU().rightCols(b - 3);
-    // A body of nanometres: turns, counted in the body's size, are as much as its places.
+    // For very small bodies: rotations are scaled by the body's size, so that they are comparable to displacements.
     Eigen::VectorXd size = Eigen::VectorXd::Ones(b);
     const double place = rigid.leftCols<2>().cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < b; ++i)
@@ -32,8 +32,7 @@ Eigen::MatrixXd straining(const Component& c, const std::vector<int>& interface)
                               " degrees of freedom and leave a rigid motion free; add a port, use one with rotation, or use free modes");
 }
 
-/// Displacements of the whole body when the interface moves as the columns of C and no load acts
-/// inside.
+/// Displacements of the whole body when the interface moves as the columns of C, without loads inside.
 Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interface, const std::vector<int>& interior,
                               const Eigen::MatrixXd& C) {
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(c.model.n(), C.cols());
@@ -49,7 +48,7 @@ Eigen::MatrixXd static_shapes(const Component& c, const std::vector<int>& interf
 
 Sparse columns_of_identity(int n, const std::vector<int>& which) {
   Sparse S(n, static_cast<Eigen::Index>(which.size()));
-  if (which.empty()) return S;  // Eigen reads beyond the columns of a matrix that has none
+  if (which.empty()) return S;  // Eigen reads out of bounds for a matrix without columns
   S.reserve(Eigen::VectorXi::Constant(S.cols(), 1));
   for (int k = 0; k < S.cols(); ++k) S.insert(which[static_cast<std::size_t>(k)], k) = 1;
   S.makeCompressed();
@@ -72,7 +71,7 @@ ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& por
 ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions, const Keep& keep) {
   const std::vector<int> interface = port_freedoms(c.model, ports);
   const Eigen::MatrixXd C = straining(c, interface);
-  // All fixed-interface modes and all static shapes span what all modes under the tie span.
+  // All fixed-interface modes and all static shapes together span the same space as all modes with the reference conditions.
   if (keep.all) return normal_modes(c, conditions, keep);
 
   const std::vector<int> interior = free_freedoms(c.model, {interface});

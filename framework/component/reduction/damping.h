@@ -11,11 +11,9 @@ struct Rayleigh {
   double alpha = 0, beta = 0;
 };  ///< [1/s], [s]
 
-/// From the ratios wanted at two frequencies [rad/s]; the paper's Eqs. (13), (14). Between the two
-/// the ratio is lower than asked, outside it is higher; a coefficient may come out negative when
-/// the ratios differ much, and then `ratios` is negative far enough out.
-/// @throws std::invalid_argument  a frequency is not positive, the two coincide, or a ratio is
-/// negative
+/// From the desired ratios at two frequencies [rad/s]; the paper's Eqs. (13), (14). Between the two the ratio is lower than desired,
+/// outside it is higher; a coefficient may be negative if the ratios differ much, and then `ratios` is negative far enough outside.
+/// @throws std::invalid_argument  a frequency is not positive, the two coincide, or a ratio is negative
 Rayleigh rayleigh(double omega_1, double zeta_1, double omega_2, double zeta_2);
 /// ζ at each ω > 0 [rad/s].
 Eigen::VectorXd ratios(const Rayleigh&, const Eigen::VectorXd& omega);

@@ -11,15 +11,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A rim that moves as a rigid ring about its port.
+/// A rim that moves as a rigid ring with its port.
 struct RigidRim {
   Eigen::Index port;
   std::vector<int> at;  // first freedom of each of its nodes
   Eigen::Matrix2Xd r;   // from the port to each
 };
 
-/// A rigid coupling gives both displacements of each of its nodes; an averaging one gives three
-/// freedoms in all, so that it leaves a node one of two.
+/// A rigid coupling determines both displacements of each of its nodes; an averaging one determines three freedoms in total, so that some
+/// nodes keep one of two.
 std::vector<RigidRim> rigid_rims(const FeModel& model) {
   std::vector<RigidRim> rims;
   for (std::size_t p = 0; model.L.size() > 0 && p < model.ports.size(); ++p) {

@@ -18,7 +18,7 @@ FlexInertia flex_inertia(const FeModel& model, const Sparse& M, const Sparse& G,
   flex.j = f.x.transpose() * M_phi;
   flex.h = f.R.transpose() * M_phi;
   flex.G = modes.shapes.transpose() * (G * modes.shapes);
-  flex.G = ((flex.G - flex.G.transpose()) / 2).eval();  // skew to the last bit
+  flex.G = ((flex.G - flex.G.transpose()) / 2).eval();  // exactly skew-symmetric
   flex.omega = modes.omega;
   flex.zeta = Eigen::VectorXd::Zero(modes.omega.size());
   return flex;

@@ -7,7 +7,7 @@
 
 #include "eigen_layout.h"
 
-/// All that the online side keeps of a body's finite elements.
+/// The data that the simulation keeps of a body's finite-element model.
 namespace pintle {
 
 /// Inertia of the undeformed body about the origin of its axes.
@@ -17,20 +17,20 @@ struct RigidInertia {
   double J = 0;                                 ///< ∫ρ x·x  [kg m²]
 };
 
-/// What bending adds to the displacement at second order, u = Φη + ½ Σ ψ_ij η_i η_j, as inertia
-/// sees it; symmetric, n × n each. Theory: docs/theory/motion.md.
+/// Inertia of the second-order displacement due to bending, u = Φη + ½ Σ ψ_ij η_i η_j; symmetric, n × n each. Theory:
+/// docs/theory/motion.md.
 struct Foreshortening {
   std::array<Eigen::MatrixXd, 2> S;  ///< ∫ρ ψ along x, along y
   Eigen::MatrixXd j, h;              ///< ∫ρ xᵀψ, ∫ρ xᵀZᵀψ
 };
 
-/// What flexibility adds, for mass-normalised shapes φ: constant, O(n²) numbers.
+/// Inertia added by flexibility, for mass-normalised shapes φ: constant, O(n²) numbers.
 struct FlexInertia {
   Eigen::Matrix2Xd S;                    ///< ∫ρ φ           2 × n
   Eigen::RowVectorXd j, h;               ///< ∫ρ xᵀφ, ∫ρ xᵀZᵀφ   1 × n, Z the quarter turn
   Eigen::MatrixXd G;                     ///< ∫ρ φᵀZᵀφ       n × n, skew
   Eigen::VectorXd omega, zeta;           ///< frequency [rad/s] and damping ratio of each shape, n
-  std::optional<Foreshortening> second;  ///< of a body that stiffens
+  std::optional<Foreshortening> second;  ///< of a body with geometric stiffness
 };
 
 }  // namespace pintle

@@ -13,7 +13,7 @@
 namespace pintle {
 namespace {
 
-/// Kφ = λMφ with `rigid` rigid motions in front, which are not counted.
+/// Kφ = λMφ with `rigid` leading rigid motions, which are not counted.
 struct Problem {
   const Sparse &K, &M;
   int rigid;
@@ -71,8 +71,8 @@ Modes below(const Problem& p, double frequency) {
   return elastic(pairs(), p);
 }
 
-/// The columns of `carried` are Mr/‖r‖_M for the rigid motions r: shares are their products with
-/// modes, squared. All modes together reach diag(carriedᵀ M⁻¹ carried).
+/// The columns of `carried` are Mr/‖r‖_M for the rigid motions r: the shares are the squares of their products with modes. The sum over all
+/// modes is diag(carriedᵀ M⁻¹ carried).
 void reject_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& carried) {
   const std::vector<int> massive = freedoms_with_mass(p.M);
   Eigen::Vector3d reach = Eigen::Vector3d::Zero();
@@ -119,7 +119,7 @@ Modes kept(const Problem& p, const Keep& keep, const Eigen::MatrixX3d& carried) 
   return lowest(p, wanted);
 }
 
-/// Mr/‖r‖_M for translations and rotation about the mass centre.
+/// Mr/‖r‖_M for the translations and the rotation about the mass centre.
 Eigen::MatrixX3d carried_mass(const Component& c) {
   Eigen::MatrixX3d Mr = reference_condition_rows(c, {ReferenceConditions::mean_axes}).transpose();
   const Eigen::Matrix3d inertia = rigid_motions(c.model).transpose() * Mr;
@@ -127,7 +127,7 @@ Eigen::MatrixX3d carried_mass(const Component& c) {
   return Mr;
 }
 
-/// VᵀAV where V has no more than one entry in a row: one pass over A.
+/// VᵀAV, where V has at most one entry per row: one pass over A.
 Sparse restricted(const Sparse& A, const Sparse& V) {
   std::vector<int> to(static_cast<std::size_t>(A.cols()), -1);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(A.cols());

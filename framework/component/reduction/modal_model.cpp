@@ -9,8 +9,8 @@
 namespace pintle {
 namespace {
 
-/// A component that reaches half of the largest is found again whatever the rounding, unless it
-/// lies on the threshold; the largest itself has equals of other sign on symmetric bodies.
+/// A component that reaches half of the largest is identified reliably despite rounding, unless it is at the threshold; the largest itself
+/// may have equals of opposite sign on symmetric bodies.
 void fix_signs(ModalModel& model) {
   for (Eigen::Index k = 0; k < model.shapes.cols(); ++k) {
     const auto shape = model.shapes.col(k);
@@ -84,8 +84,7 @@ ModalModel modal_model(const Component& c, const ReferenceConditions& conditions
 }
 
 ModalModel diagonalised(const Component& c, const ReferenceConditions& conditions, const Eigen::MatrixXd& V, std::optional<int> sturm) {
-  // Scaling up what little a shape adds scales up what rounding has left of rigid motions: tied
-  // again.
+  // Scaling up a small new part of a shape also scales up rounding of rigid motions: the reference conditions are applied again.
   const Eigen::MatrixXd Q = meeting_conditions(c, conditions, orthonormal(c.M, meeting_conditions(c, conditions, V), least_share));
   if (Q.cols() == 0) return modal_model(c, conditions, {Q, Eigen::VectorXd(0), sturm});
   const Eigen::MatrixXd K = Q.transpose() * (c.K * Q), M = Q.transpose() * (c.M * Q);

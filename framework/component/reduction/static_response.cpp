@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Loads with the reactions of the tie or, under mean axes, the inertia of the acceleration that
-/// they cause. The adjoint of `tied`: on any motion they do the work of f on that motion tied.
+/// Loads together with the reactions of the reference conditions or, with mean axes, the inertia of the acceleration that they cause. The
+/// adjoint of `meeting_conditions`: their work on any motion is that of f on the motion after `meeting_conditions`.
 MatrixXd in_equilibrium(const Component& c, const ReferenceConditions& conditions, const MatrixXd& loads) {
   const MatrixXd B = reference_condition_rows(c, conditions);
   const Eigen::MatrixX3d r = scaled_rigid_motions(c.model);
@@ -21,7 +21,7 @@ MatrixXd in_equilibrium(const Component& c, const ReferenceConditions& condition
   return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
 }
 
-/// Three freedoms that hold the body, far enough apart to hold it well.
+/// Three freedoms whose fixing holds the body, far enough apart to be well conditioned.
 Supports determinate_hold(const FeModel& model) {
   const MatrixXd motions = scaled_rigid_motions(model).transpose();
   const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
@@ -43,7 +43,7 @@ MatrixXd StaticResponse::under(const ReferenceConditions& conditions, const Matr
                                 std::to_string(c_.model.n()) + ", one per independent freedom");
   const MatrixXd moving_loads = in_equilibrium(c_, conditions, loads)(moving_, Eigen::all);
   MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
-  u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the hold carries nothing
+  u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the support forces are zero
   return meeting_conditions(c_, conditions, u);
 }
 

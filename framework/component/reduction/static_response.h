@@ -7,15 +7,15 @@
 
 namespace pintle {
 
-/// Displacement, tied, under each column of `loads`, in independent freedoms, n × count: of the body
-/// held by the tie (tangent, chord) or, under mean axes, of the free body that the load accelerates.
-/// For a displacement v that meets the tie, vᵀK u = vᵀf, so that uᵀf is twice the strain energy.
+/// Displacement, satisfying the reference conditions, under each column of `loads`, in independent freedoms, n × count: of the body held by
+/// these conditions (tangent, chord) or, with mean axes, of the free body accelerated by the load. For a displacement v that satisfies the
+/// conditions, vᵀK u = vᵀf, so that uᵀf is twice the strain energy.
 /// @param loads  independent freedoms, n × count
 /// @throws std::invalid_argument  as reference_condition_rows; `loads` has another number of rows
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
 Eigen::MatrixXd static_response(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& loads);
 
-/// The same of one body under several ties, its stiffness factored once.
+/// The same for one body under several reference conditions, with its stiffness factored once.
 class StaticResponse {
  public:
   /// @throws std::runtime_error  as static_response

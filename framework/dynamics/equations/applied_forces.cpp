@@ -12,7 +12,7 @@ using Index = Eigen::Index;
 
 namespace {
 
-// Of rigid bodies; flexible ones have more to do (add_forces).
+// Rigid bodies only; flexible bodies are handled by add_forces.
 void add_weight(const System& system, Equations& eq) {
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     if (eq.flexible_of[b] >= 0) continue;

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-constexpr int most = 300;  ///< lost rows looked at; more can only be redundant by design
+constexpr int most = 300;  ///< with more lost rows than this, they are taken as permanently redundant
 
 void divide_by_mass(const System& system, Equations& eq, VectorXd& v) {
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
@@ -33,7 +33,7 @@ VectorXd transposed(const System& system, const Equations& eq, const VectorXd& x
   return out;
 }
 
-/// Combinations of rows that vanish, as many as rows are lost: what S S⁺ leaves of any vectors.
+/// Basis of the null space, one vector per lost row: the part of random vectors that S S⁺ removes.
 MatrixXd null_vectors(const System& system, Equations& eq) {
   MatrixXd N(system.n_rows(), eq.schur.lost());
   for (Index k = 0; k < N.cols(); ++k) {
@@ -48,7 +48,7 @@ MatrixXd null_vectors(const System& system, Equations& eq) {
   return N;
 }
 
-/// sᵀH of each null vector, and the third derivative of Nᵀ C along s without accelerations.
+/// sᵀH for each null vector, and the third derivative of Nᵀ C along s without accelerations.
 struct Bend {
   MatrixXd G;
   VectorXd third;
@@ -70,8 +70,8 @@ Bend bend(const System& system, const State& state, const VectorXd& way, double 
   return out;
 }
 
-/// G with its rows brought into the directions that the joints leave free, (I − M⁻¹CqᵀS⁺Cq) M⁻¹Gᵀ, and in `X` what
-/// of it the joints take up, S⁺Cq M⁻¹Gᵀ.
+/// The rows of G projected onto the directions that the joints leave free, (I − M⁻¹CqᵀS⁺Cq) M⁻¹Gᵀ. `X` receives the part that the joints
+/// take up, S⁺Cq M⁻¹Gᵀ.
 MatrixXd free_part(const System& system, Equations& eq, const MatrixXd& G, MatrixXd& X) {
   X.resize(system.n_rows(), G.rows());
   MatrixXd out(G.cols(), G.rows());
@@ -88,7 +88,7 @@ MatrixXd free_part(const System& system, Equations& eq, const MatrixXd& G, Matri
   return out;
 }
 
-/// What a combination of rows would be in the metric of M⁻¹ if they did not vanish together: Σ|N| (Cq M⁻¹ Cqᵀ)^½ of each row.
+/// Size in the metric of M⁻¹ that a combination of rows would have if its terms did not cancel: Σ|N| (Cq M⁻¹ Cqᵀ)^½ over the rows.
 double uncancelled(const System& system, const Equations& eq, const VectorXd& N) {
   VectorXd square = VectorXd::Zero(system.n_rows());
   visit_jacobian(eq,
@@ -100,7 +100,7 @@ double uncancelled(const System& system, const Equations& eq, const VectorXd& N)
 
 bool follow_bifurcation_branch(const System& system, const State& state, Equations& eq) {
   constexpr double nothing = 1e-8, rounding = 1e-5;
-  constexpr double balanced = 1e-9;  // of what forces would do without joints: rounding has no direction to go
+  constexpr double balanced = 1e-9;  // relative to the accelerations without joints: below this only rounding remains
   const int lost = eq.schur.lost();
   if (lost <= eq.permanent) return true;
   if (lost > most) {
@@ -119,12 +119,12 @@ bool follow_bifurcation_branch(const System& system, const State& state, Equatio
   const bool rests = !(rate > 1e-6 * std::sqrt(pull));
   if (rests && pull <= balanced * free_pull()) return true;
   const MatrixXd N = null_vectors(system, eq);
-  const VectorXd way = rests ? VectorXd(eq.a / pull) : s;  // where it moves, else where it would
+  const VectorXd way = rests ? VectorXd(eq.a / pull) : s;  // direction of motion, or at rest of the acceleration
   const Bend b = bend(system, state, way, rests ? 1 : rate, N);
   MatrixXd X;
   const MatrixXd V = free_part(system, eq, b.G, X);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> K(b.G * V);
-  // What of G is free to bend, against what M⁻¹ alone would make of it, or differences of what cancels.
+  // The free part of G is compared with that of M⁻¹ alone, and with the rounding of differences of terms that cancel.
   double whole = 0;
   for (Index d = 0; d < N.cols(); ++d)
     whole = std::max(whole, std::pow(rounding * (rests ? 1 : rate) * uncancelled(system, eq, N.col(d)), 2));
@@ -143,7 +143,7 @@ bool follow_bifurcation_branch(const System& system, const State& state, Equatio
     }
   if (singular == 0) eq.permanent = lost;
   if (singular == 0) return true;
-  if (rests)  // it goes the way of its accelerations if a branch does: aᵀH a = 0
+  if (rests)  // at rest the accelerations must lie along a branch: aᵀH a = 0
     return (b.G * eq.a).lpNorm<Eigen::Infinity>() <= 1e-6 * (b.G.cwiseAbs() * eq.a.cwiseAbs()).lpNorm<Eigen::Infinity>();
   eq.a += V * mu;
   eq.lambda += X * mu;

@@ -42,7 +42,7 @@ void fill_derivative(const System& system, const VectorXd& y, const Equations& e
       case Account::driver: rate = eq.lambda[system.row_begin[k]] * eq.rows[k].Ct[0]; break;
       case Account::damping: rate = damping_loss(system, y, z.index); break;
       case Account::switching:
-      case Account::scheme: break;  // no rate: booked event by event, step by step
+      case Account::scheme: break;  // no rate: added at events and steps
     }
     dy[system.z_begin() + i] = rate;
   }

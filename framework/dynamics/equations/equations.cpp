@@ -55,8 +55,8 @@ void add_product(const Equations& eq, const double* v, VectorXd& out) {
   }
 }
 
-// λ and a from a = M⁻¹ f. A body of little inertia, or on a long arm, leaves Cq a − γ above rounding;
-// the residual, solved for again, takes that away.
+// λ and a from a = M⁻¹ f. With a body of little inertia or on a long arm, Cq a − γ stays above rounding; solving again for this residual
+// removes it.
 void solve_reactions(const System& system, Equations& eq) {
   constexpr double rounding = 1e-13;
   const int refinements = eq.uneven || eq.schur.weak() ? 2 : 0;
@@ -77,10 +77,10 @@ void solve_reactions(const System& system, Equations& eq) {
   }
 }
 
-// Dependent rows ask for the same accelerations: the solved-for λ leave nothing of Cq a − γ.
+// Dependent rows require the same accelerations: with the computed λ nothing is left of Cq a − γ.
 bool agree(const System& system, Equations& eq) {
-  constexpr double little = 1e-2;    // of what they ask: close to singular poses speeds off by 1e-6 weigh that much
-  constexpr double rounding = 1e-8;  // of the accelerations that the joints take away
+  constexpr double little = 1e-2;    // relative to γ and a: near singular configurations a speed error of 1e-6 has this much effect
+  constexpr double rounding = 1e-8;  // relative to the accelerations that the joints remove
   multiply_inverse_mass(system, eq, eq.f, eq.g);
   const double free = rounding * largest(eq.g);
   eq.mu = -eq.gamma;
@@ -89,7 +89,7 @@ bool agree(const System& system, Equations& eq) {
   return largest(eq.mu) <= little * std::max({size, largest(eq.a), free});
 }
 
-// Rows of joints that are out hold nothing; what others found when they were put in is no violation.
+// Rows of released joints constrain nothing. What a joint found when it was engaged does not count as a violation.
 void switch_rows(const System& system, const VectorXd& y, Equations& eq) {
   eq.released.clear();
   const double* held = y.data() + system.switch_begin();
@@ -222,7 +222,7 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   eq.regular = true;
   for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
   if (!eq.regular) return;
-  // Off C = 0 redundant rows seem to be independent, by pivots as the square of what they are off.
+  // Where C = 0 is not met exactly, redundant rows seem independent: their pivots grow as the square of the violation.
   constexpr double times = 100;
   const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0,
                least = std::max(dependent_rows::lost, times * off * off);

@@ -14,21 +14,22 @@
 
 namespace pintle {
 
-/// Forces that the accelerations decide, and what each does to the motion: normal forces of closed rigid contacts, friction of these and
-/// of contacts that stick, each right behind its normal force, and behind all friction in joints, whether it sticks or slides. sticking.h.
+/// Forces that the accelerations determine, and the effect of each on the motion: normal forces of closed rigid contacts; friction of these
+/// and of contacts that stick, each directly after its normal force; then all friction in joints, whether it sticks or slides. See
+/// sticking.h.
 struct Sticking {
   struct Column {
     std::size_t at;  ///< its index in State::friction
     bool normal;     ///< a normal force; else friction
-    bool holds;      ///< it keeps its gap closed, or its slip 0
+    bool holds;      ///< keeps its gap closed, or its slip at 0
   };
   std::vector<Column> of;
-  Eigen::MatrixXd J;       ///< n × of: ∂(opening speed or slip)/∂s, a column each
-  Eigen::MatrixXd a;       ///< n × of: accelerations by 1 N
-  Eigen::MatrixXd lambda;  ///< n_rows × of: multipliers by 1 N
+  Eigen::MatrixXd J;       ///< n × of: ∂(opening speed or slip)/∂s, one column each
+  Eigen::MatrixXd a;       ///< n × of: accelerations caused by 1 N
+  Eigen::MatrixXd lambda;  ///< n_rows × of: multipliers caused by 1 N
 };
 
-/// Room for solving for the scene's own states.
+/// Scratch for solving for the scene's own states.
 struct OwnScratch {
   Eigen::MatrixXd slopes, A;
   Eigen::VectorXd left, change;
@@ -37,24 +38,24 @@ struct OwnScratch {
 
 /// Scratch of one evaluation of the equations of motion, sized by the system; one per thread.
 ///   M a + Cqᵀ λ = f(q, s, t),   Cq a = γ,   Cq s = −Ct,   C = 0.
-/// Nothing here allocates after construction while the rows are few enough to be dense.
+/// Allocates nothing after construction while the rows are few enough for a dense solver.
 struct Equations {
   explicit Equations(const System&);
 
-  /// An end of a joint on a body that moves, with the indices it needs at hand.
+  /// An end of a joint on a moving body, with the indices it needs.
   struct End {
     std::size_t joint, at;  ///< L[at] and B[at] are its share of the joint's rows
     int marker, q, row, m;  ///< marker; first coordinate; first row; rows
     int flexible;           ///< index into `flexible`, −1 for a rigid body
-    bool bends;             ///< B_eta may be other than 0
+    bool bends;             ///< B_eta can be nonzero
   };
   std::vector<End> ends;
-  /// One row of an end, for products: three entries of L or B, counted through all blocks, at q.
+  /// One row of an end, for products: three entries of L or B, counted through all blocks, at coordinate q.
   struct EndRow {
     int row, q, at, marker;
   };
   std::vector<EndRow> end_rows;
-  /// What a pose needs of a marker on a rigid body or the ground; tables as narrow as they can be: large systems wait for memory.
+  /// The data of a marker on a rigid body or the ground that a pose needs. Kept small because large systems are limited by memory access.
   struct Point {
     int body;
     double x, y, angle;
@@ -69,11 +70,11 @@ struct Equations {
   std::vector<int> flexible_of;           ///< per body, index into `flexible` or −1
 
   std::vector<MarkerMotion> motion;      ///< of each marker
-  std::vector<bool> directed;            ///< per marker: a joint or a following force asks for its direction u
-  std::vector<ConstraintRows> rows;      ///< of each joint, in poses of its markers
-  std::vector<ConstraintRows::Block> L;  ///< … and their derivatives, one an end of a joint
-  std::vector<int> released;             ///< rows of joints that events have taken out: all zero, λ = 0
-  std::vector<Schur::Block> B;           ///< rows of Cq, likewise: L J on [x y θ] …
+  std::vector<bool> directed;            ///< per marker: a joint or a following force needs its direction u
+  std::vector<ConstraintRows> rows;      ///< of each joint, as functions of the poses of its markers
+  std::vector<ConstraintRows::Block> L;  ///< … and their derivatives, one block per end of a joint
+  std::vector<int> released;             ///< rows of joints released by events: all zero, λ = 0
+  std::vector<Schur::Block> B;           ///< rows of Cq, one block per end: L J on [x y θ] …
   std::vector<RowBlock> B_eta;           ///< … and on η; empty for a rigid body
   std::vector<Schur::Block> B_hat;       ///< both in the metric of M⁻¹: see to_metric
   std::vector<RowBlock> B_eta_hat;
@@ -83,14 +84,14 @@ struct Equations {
   Eigen::VectorXd f, a, lambda;  ///< forces, accelerations, multipliers
   std::vector<ContactEffect> contact;
   std::vector<ForceEffect> force;
-  std::vector<double> signals, laws;  ///< values of the system's
-  std::vector<int> law_sides;         ///< on which laws are held; empty: each takes the one that it finds
+  std::vector<double> signals, laws;  ///< values of the system's signals and laws
+  std::vector<int> law_sides;         ///< the side on which each switching law is held; empty: each chooses its own
   OwnScratch own;
-  std::vector<JointFrictionEffect> friction;  ///< in joints
+  std::vector<JointFrictionEffect> friction;  ///< of friction in joints
   Sticking sticking;
-  bool regular = true;  ///< false: no accelerations can be had here
-  bool uneven = false;  ///< inertias so unlike that λ and a need a second look
-  int permanent = 0;    ///< rows that others imply wherever it has moved so far
+  bool regular = true;  ///< false: the accelerations cannot be computed here
+  bool uneven = false;  ///< inertias so different that λ and a need iterative refinement
+  int permanent = 0;    ///< permanently redundant rows: implied by others in every configuration so far
 
   long evaluations = 0, factorizations = 0;
 
@@ -106,14 +107,14 @@ void speed(const System&, double t, const Eigen::VectorXd& y, Equations&);
 void update_mass(const System&, const Eigen::VectorXd& y, Equations&);
 /// update_mass, inverts the inertia of flexible bodies and factors S. After pose; sets `regular`.
 void factor(const System&, const Eigen::VectorXd& y, Equations&);
-/// f: gravity, what inertia does with speed, force elements, contacts. After speed and update_mass.
+/// f: gravity, velocity-dependent inertia forces, force elements, contacts. After speed and update_mass.
 void apply_forces(const System&, const State&, Equations&);
 /// γ, the right-hand side at acceleration level: Cq a = γ. After speed.
 void acceleration_side(const Equations&, Eigen::VectorXd& gamma);
-/// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a
-/// singular pose that speeds do not lead out of.
+/// Loads, λ, a. After speed and factor. Clears `regular` where rows contradict each other, and in a singular configuration that the speeds
+/// do not lead out of.
 void accelerate(const System&, const State&, Equations&);
-/// a ← accelerations by the forces a under the joints, λ ← multipliers that go with them. After factor.
+/// a ← accelerations due to the forces a with the joints acting, λ ← the corresponding multipliers. After factor.
 void respond(const System&, Equations&, Eigen::VectorXd& a, Eigen::VectorXd& lambda);
 /// out += M v, n. After update_mass.
 void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, Eigen::VectorXd& out);
@@ -124,7 +125,7 @@ const std::array<double, most_internal>& internal_rates(const Equations&, const 
 /// ẏ = [s, a, ẋ, ż] after accelerate.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 
-/// Everything above in order. @returns false if there are no accelerations
+/// All of the above in order. @returns false if the accelerations cannot be computed
 bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
 
 /// Largest |C| over the mechanism's length, and |Ċ| over its length and fastest angular rate.
@@ -132,22 +133,21 @@ double position_violation(const System&, const Equations&);
 double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
 /// Largest speed over its scale, never 0 [1/s].
 double fastest_rate(const System&, const Eigen::VectorXd& y);
-/// What the last digit of the angles, after many turns, leaves of |C| at the least, over the mechanism's length.
+/// Smallest |C| that the rounding of the angles allows, after many turns, over the mechanism's length.
 double angle_rounding(const System&, const Eigen::VectorXd& y);
 
-/// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what
-/// `subtract(violation, x)` needs to take a violation out of x, the coordinates or the speeds in y; it
-/// returns the largest change over its scale. `factor` returns false at a pose where that cannot be had.
-/// Leaves pose and speed at the corrected state. Near a singular pose, where motions branch and a small
-/// violation asks for a large correction, it goes on to rounding, which comes back as large, and does not jump to another
-/// branch: it fails where Newton's method does not contract fast, and leaves the speeds alone rather than turn them.
+/// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what `subtract(violation, x)` needs to
+/// remove a violation from x, the coordinates or the speeds in y; `subtract` returns the largest change over its scale. `factor` returns
+/// false where this is impossible. Leaves pose and speed at the corrected state. Near a singular configuration, where motions branch and a
+/// small violation asks for a large correction, it iterates down to rounding, because the error is amplified, and does not jump to another
+/// branch: it fails where Newton's method does not contract fast, and leaves the speeds unchanged rather than change their direction.
 /// @returns false if it does not converge
 template <class Factor, class Subtract>
 bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor, Subtract subtract) {
-  constexpr double still_good = 1e-8;  // beyond so many turns that digits run short of it, it gives up
+  constexpr double still_good = 1e-8;  // with so many turns that rounding exceeds this, it fails
   const double known = angle_rounding(system, y), enough = std::max(1e-13, known), good = std::max(1e-11, std::min(8 * known, still_good));
-  constexpr double contracts = 0.1;                // a jump between branches leaves a quarter of the violation at the least
-  constexpr double amplified = 1e3, turns = 1e-6;  // times the violation; of the fastest speed
+  constexpr double contracts = 0.1;                // a jump between branches leaves at least a quarter of the violation
+  constexpr double amplified = 1e3, turns = 1e-6;  // relative to the violation; to the fastest speed
   constexpr double digits = 1e-15;
   constexpr int most = 8;
   double worst = 0;
@@ -169,7 +169,7 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
   if (!(worst <= good)) return false;
   speed(system, t, y, eq);
   for (int i = 0; i < 2; ++i) {
-    const double violation = velocity_violation(system, y, eq);  // over the fastest speed
+    const double violation = velocity_violation(system, y, eq);  // relative to the fastest speed
     if (violation <= (near ? digits : 1e-13)) break;
     const double fastest = fastest_rate(system, y);
     const double change = subtract(eq.Cdot, y.data() + system.n());
@@ -183,11 +183,11 @@ bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equati
   return true;
 }
 
-/// Moves q, then s, to C = 0 and Ċ = 0 by the shortest way in the metric of M; leaves pose, speed and
-/// factor as for the corrected state. @returns false if it does not converge
+/// Projects q, then s, onto C = 0 and Ċ = 0 in the metric of M; leaves pose, speed and factor as for the corrected state. @returns false if
+/// it does not converge
 bool project(const System&, double t, Eigen::VectorXd& y, Equations&);
 
-/// v ← the part of n coordinates or speeds that the joints allow: less the shortest way, in the metric of M, to Cq v = 0. After factor.
+/// v ← n coordinates or speeds v projected onto Cq v = 0 in the metric of M. After factor.
 void keep_allowed(const System&, Equations&, double* v);
 
 /// put(column of q, [∂r_x, ∂r_y, ∂angle]) for each coordinate that moves a marker. After pose.
@@ -216,14 +216,14 @@ void visit_jacobian(const Equations& eq, Put put) {
     }
 }
 
-/// What clearance joint c does in an evaluated state: its contact, or its massless link, whose normal force is
-/// that of the row, acts at the centres, and is below zero where the link pushes as no wall could pull.
+/// Effect of clearance joint c in an evaluated state: that of its contact, or of its massless link. The link's normal force is that of the
+/// constraint row, acts at the centres, and is negative where the link pushes, since a wall cannot pull.
 ContactEffect clearance_effect(const System&, const Equations&, std::size_t c);
 
-/// What a joint does at one of its ends, −L_iᵀλ.
+/// Wrench of a joint at one of its ends, −L_iᵀλ.
 Wrench reaction(const System&, const Equations&, std::size_t joint, std::size_t end);
 
-/// v ← v + Σ of a marker's wrench brought to its body's coordinates.
+/// v ← v + a marker's wrench in its body's coordinates.
 void add_wrench(const System&, const Equations&, int marker, const Wrench&, Eigen::VectorXd& v);
 
 }  // namespace pintle

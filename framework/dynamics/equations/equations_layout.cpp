@@ -1,4 +1,4 @@
-// What the equations of a system have room for: tables of markers, ends and rows, found once.
+// Storage for the equations of a system: tables of markers, ends and rows, built once.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,7 +79,7 @@ Equations::Equations(const System& system)
   for (const End& end : ends)
     if (end.flexible >= 0 && flexible[at(end.flexible)].stiffens) B_eta_hat[end.at].setZero(3, flexible[at(end.flexible)].n + 3);
   W.resize(system.n_rigid());
-  constexpr double alike = 100;  // inverse inertias that leave no more than two digits of rounding
+  constexpr double alike = 100;  // inverse inertias within this ratio lose no more than two digits to rounding
   double least = std::numeric_limits<double>::infinity(), most = 0;
   const auto weigh_in = [&](double w) { least = std::min(least, w), most = std::max(most, w); };
   for (const Body& body : system.bodies) weigh_in(1 / body.m);

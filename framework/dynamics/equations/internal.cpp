@@ -19,13 +19,13 @@ bool has_released_owner(const System& system, const InternalStates& of, const Ei
   return false;
 }
 
-// Of one owner, g and its derivatives in x.
+// g of one owner and its derivatives with respect to x.
 struct OwnRates {
   std::array<double, most_internal> rate{};
   InternalMatrix g_x;
 };
 
-// What of the motion the rates of its own states depend on, found once.
+// The motion that the rates of an owner's states depend on, evaluated once.
 class OwnMotion {
  public:
   OwnMotion(const System& system, const Equations& eq, const State& state, const InternalStates& of)
@@ -67,7 +67,7 @@ class OwnMotion {
   const System& system_;
   const InternalStates& of_;
   double t_, slip_ = 0;
-  bool open_ = false;                 ///< its owner does nothing
+  bool open_ = false;                 ///< its owner is inactive
   const FrictionLaw* law_ = nullptr;  ///< of bristles
   std::array<int, 2> markers_;
   const MarkerMotion &a_, &b_;

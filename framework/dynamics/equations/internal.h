@@ -4,24 +4,25 @@
 
 namespace pintle {
 
-/// How an owner's wrenches and internal states answer to each other and to the motion. After apply_forces.
+/// How an owner's wrenches and internal states respond to each other and to the motion. After apply_forces.
 InternalTangent internal_tangent(const System&, const State&, const Equations&, const InternalStates&);
 
 /// The two markers that an owner acts between.
 std::array<int, 2> markers_of(const System&, const InternalStates&);
 
-/// x ← the solution of x = base + weight g(p, ṗ, x, t) for the internal states of every owner, by Newton's method from the x that is
-/// there; internal_at_rest: of g = 0, and base is not read. After speed. Allocates nothing.
+/// Solves x = base + weight g(p, ṗ, x, t) for the internal states of every owner by Newton's method, starting from the given x. With
+/// internal_at_rest it solves g = 0, and base is not read. After speed. Allocates nothing.
 /// @param state  its time and which contacts are closed   @param base, x  n_x numbers each
 void follow_internal_states(const System&, Equations&, const State& state, double weight, const double* base, double* x);
 
-/// The internal states in y that have come to rest in its pose: g(p, 0, x, t) = 0; the scene's own as they start.
+/// Sets the internal states in y to their rest values in its configuration: g(p, 0, x, t) = 0; the scene's own states to their start
+/// values.
 void relax_internal_states(const System&, double t, Eigen::VectorXd& y);
 
-/// v ← (1 − weight g_x)⁻¹ v: how a step of that weight takes a change of internal states that are stiff. After apply_forces.
+/// v ← (1 − weight g_x)⁻¹ v: effect of a step of that weight on a change of stiff internal states. After apply_forces.
 void filter_internal_states(const System&, const State&, Equations&, double weight, double* v);
 
-/// Bristles of a contact that has parted are straight; of one that another pair of pieces has taken over, it has them.
+/// Sets the bristles of a contact that has opened to zero; passes the bristles on to the pair of pieces that takes a contact over.
 void straighten_bristles(const System&, int contact, State&);
 void exchange_bristles(const System&, int contact, int other, State&);
 

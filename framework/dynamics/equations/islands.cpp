@@ -33,7 +33,7 @@ bool move_each_other(const UnilateralContact& a, const UnilateralContact& b, con
   return out;
 }
 
-// The contacts of each set by their numbers.
+// The contacts of each independent set, by their indices.
 std::vector<std::vector<std::size_t>> sets_apart(std::span<const UnilateralContact> contacts, const MatrixXd& W) {
   std::vector<std::vector<std::size_t>> out;
   std::vector<bool> taken(contacts.size());
@@ -50,7 +50,7 @@ std::vector<std::vector<std::size_t>> sets_apart(std::span<const UnilateralConta
   return out;
 }
 
-// Forces under which all stay closed and stick, if these push and friction can hold.
+// Forces under which all contacts stay closed and stick, if they all push and friction can hold.
 std::optional<VectorXd> holding(const Contacts& contacts, const MatrixXd& W, const VectorXd& c) {
   constexpr double rounding = 1e-11, within = 1e-9;
   if (std::ranges::any_of(contacts, [](const UnilateralContact& k) { return k.sliding >= 0 || k.preload > 0; })) return std::nullopt;

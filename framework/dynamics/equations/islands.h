@@ -7,10 +7,11 @@
 
 namespace pintle {
 
-/// Forces, or impulses, of rigid contacts as `unilateral_forces` has them, for each set apart of contacts that move each other. Where
-/// all contacts of a set are at rest, and can stay closed and stick, they do: a heap may be able to stand, and to roll apart as well.
-/// @param slipping  tangents of contacts that slip already
-/// @returns nothing where none are found
+/// Forces, or impulses, of rigid contacts as by `unilateral_forces`, solved separately for each set of contacts that affect each other.
+/// Where all contacts of a set are at rest and can stay closed and stick, they do: for a heap both standing and rolling apart may be
+/// solutions.
+/// @param slipping  tangents of contacts that already slip
+/// @returns nothing where no forces are found
 std::optional<Eigen::VectorXd> contact_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c,
                                               std::span<const int> slipping = {});
 

@@ -1,4 +1,4 @@
-// What friction in ideal joints does at an instant, under forces decided before.
+// Friction in ideal joints at an instant, under forces that are already determined.
 #include <cmath>
 #include <variant>
 
@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-// Of force over N.
+// Slopes of force over N.
 void find_slopes(const JointFriction& rub, const DryFriction& now, const double* x, JointFrictionEffect& effect) {
   if (const auto* dry = std::get_if<Coulomb>(&rub.law)) {
     effect.d_slip = std::abs(now.direction) == 1 ? evaluate(*dry, effect.slip, 1, now.direction).d_speed : 0;

@@ -25,7 +25,7 @@ double sized_by(const SignalLaw& law, const Equations& eq, double t, const doubl
   return held ? law.sided->value(t, in, slope, eq.law_sides.data() + law.first_side) : law.of(t, in, slope);
 }
 
-// g_x from the laws' slopes, as columns of own states.
+// g_x from the laws' slopes: the columns of own states.
 void own_slopes(const System& system, const MatrixXd& slopes, MatrixXd& g_x) {
   g_x.setZero();
   for (std::size_t k = 0; k < system.signals.size(); ++k) {
@@ -137,7 +137,7 @@ LawTangent::LawTangent(const System& system)
   A_.setZero(n, n);
 }
 
-// F_σ ← F_σ + F_x (1/weight − g_x)⁻¹ g_σ, with nothing where g at rest does not depend on x.
+// F_σ ← F_σ + F_x (1/weight − g_x)⁻¹ g_σ; no second term where g at rest does not depend on x.
 void LawTangent::condense(const System& system, double weight) {
   if (system.states.empty()) return;
   own_slopes(system, slopes_, A_);

@@ -6,7 +6,7 @@
 #include "framework/dynamics/equations/marker_jacobian.h"
 #include "framework/dynamics/model/flexible_tangent.h"
 
-/// Laws of signals at an instant: their values, how they answer to the motion, and the scene's own states. Theory: docs/theory/signals.md.
+/// Laws of signals at an instant: their values, their response to the motion, and the scene's own states. Theory: docs/theory/signals.md.
 namespace pintle {
 
 /// eq.signals and eq.laws. After speed. @param x  the internal states
@@ -15,16 +15,18 @@ void evaluate_laws(const System&, double t, const double* x, Equations&);
 /// slopes(l, k) ← ∂(law l)/∂(signal k), laws × signals. After evaluate_laws.
 void law_slopes(const System&, const Equations&, double t, Eigen::MatrixXd& slopes);
 
-/// Own states as internal.h has those of owners: x = base + weight g solved for; (1 − weight g_x)⁻¹ v. Both in eq's own scratch.
+/// The scene's own states, treated as internal.h treats those of owners: solves x = base + weight g; applies (1 − weight g_x)⁻¹ to v. Both
+/// work in eq's own scratch.
 void follow_own_states(const System&, Equations&, double t, double weight, const double* base, double* x);
 void filter_own_states(const System&, const State&, Equations&, double weight, double* v);
-/// What the laws add to the tangent: −Σ d (F_σ ∂σ/∂q)ᵀ and so in s, d being what a unit of the force does; where own states follow the
-/// motion, F_σ + F_x (1/weight − g_x)⁻¹ g_σ stands for F_σ.
+/// What the laws add to the tangent: −Σ d (F_σ ∂σ/∂q)ᵀ, likewise for s, where d is the effect of a unit force. Where own states follow the
+/// motion, F_σ + F_x (1/weight − g_x)⁻¹ g_σ replaces F_σ.
 class LawTangent {
  public:
   explicit LawTangent(const System&);
 
-  /// One size of one force: bodies that it acts on and bodies that its law sees; block[i][j] the first summand of ∂(on[i])/∂(by[j]).
+  /// One component of one force: the bodies it acts on and the bodies its law depends on; block[i][j] is the first summand of
+  /// ∂(on[i])/∂(by[j]).
   struct Sized {
     std::size_t force;
     bool other;
@@ -43,7 +45,7 @@ class LawTangent {
  private:
   void condense(const System&, double weight);
   void see(const System&, const State&, const Equations&, int law, double w_q, double w_s);  ///< row_ ← w_q ∂/∂q + w_s ∂/∂s
-  void point(const System&, const Equations&, const Sized&);                                 ///< d_ ← what a unit does
+  void point(const System&, const Equations&, const Sized&);                                 ///< d_ ← effect of a unit force
 
   Eigen::MatrixXd slopes_, g_signals_, follow_, A_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

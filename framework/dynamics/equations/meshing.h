@@ -5,11 +5,11 @@
 #include "eigen_layout.h"
 #include "framework/dynamics/model/system.h"
 
-/// Teeth with backlash that events engage mesh in the gap where they are by then. The offset of their switch is by how much that has slipped
-/// from the gap of the start, so that C is C − offset for them. Theory: docs/theory/gears.md.
+/// Teeth with backlash that an event engages mesh in the gap where they are at that time. The offset of their switch is how far this gap is
+/// from the one at the start, so that C is replaced by C − offset. Theory: docs/theory/gears.md.
 namespace pintle {
 
-/// The wheel b as if it had turned on to the gap of the start.
+/// The wheel b, turned as if it meshed in the gap of the start.
 template <class Moving>
 Moving in_its_gap(const System& system, const ContactPair& pair, int contact, const Eigen::VectorXd& y, Moving b) {
   const int k = system.switches.empty() ? -1 : system.contact_switch[static_cast<std::size_t>(contact)];

@@ -22,7 +22,7 @@ bool is_closed(const System& system, const State& state, std::size_t k) {
   return k < system.contacts.size() && is_rigid(system.contacts[k]) && state.impact_rate[k] > 0;
 }
 
-// What the rest of the mechanism does: the closed rigid contacts open, and no friction that a change of theirs could change.
+// The state of the rest of the mechanism: closed rigid contacts open, and without the friction that they could affect.
 State without_rigid(const System& system, const State& state) {
   State out = state;
   for (std::size_t k = 0; k < out.friction.size(); ++k) {
@@ -33,7 +33,7 @@ State without_rigid(const System& system, const State& state) {
   return out;
 }
 
-// An impact begins: all rigid contacts concerned closed, and their friction free to stick.
+// Start of an impact: all rigid contacts involved are closed, and their friction may stick.
 void close_for_impact(const System& system, std::span<const int> touching, State& state) {
   for (const int c : touching) state.impact_rate[at(c)] = system.contacts[at(c)].slowest_impact;
   for (std::size_t k = 0; k < state.friction.size(); ++k) {
@@ -42,7 +42,7 @@ void close_for_impact(const System& system, std::span<const int> touching, State
   }
 }
 
-// Poisson's: the impulse of expansion is e times that of compression, or more where a gap would close.
+// Poisson's law: the impulse of expansion is e times that of compression, or more where a gap would close.
 std::optional<VectorXd> poisson(const Closed& closed, std::span<const double> e, const MatrixXd& W, const VectorXd& v) {
   const auto compression = unilateral_forces(closed.unknowns, W, v);
   if (!compression) return std::nullopt;
@@ -57,14 +57,14 @@ std::optional<VectorXd> poisson(const Closed& closed, std::span<const double> e,
   return VectorXd(*compression + given + *more);
 }
 
-// Restitution of each contact now: 0 where it would part too slowly, or rise too little, for speeds and places to show it.
+// Effective restitution of a contact: 0 where the separation speed or the rise would be too small to resolve.
 struct Bounce {
   double e;
-  std::optional<double> at_rest = {};  ///< if it is 0 for that, when a sequence of ever lower bounces ends
+  std::optional<double> at_rest = {};  ///< if e is 0 for that reason: when the sequence of decreasing bounces ends
 };
-// Does a contact that parts at this speed rise enough for places to show it?
+// Does a contact that parts at this speed rise enough to be resolved?
 bool shows(const ContactPair& pair, double parts, double acceleration) {
-  constexpr double times = 20;  // what is taken for closed
+  constexpr double times = 20;  // multiple of the slack within which a gap counts as closed
   return parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
 }
 Bounce bounce_of(const ContactPair& pair, double t, double opening, double acceleration) {
@@ -74,7 +74,7 @@ Bounce bounce_of(const ContactPair& pair, double t, double opening, double accel
   return {0, acceleration < 0 && e < 1 ? std::optional(t - 2 * parts / (acceleration * (1 - e))) : std::nullopt};
 }
 
-// What an impact of closed contacts meets.
+// Input of an impact of closed contacts.
 struct Meeting {
   const System& system;
   const Closed& closed;
@@ -82,8 +82,8 @@ struct Meeting {
   VectorXd before, acceleration;
 };
 
-// Which contacts part under the impulses x. What would part too slowly to show stays, as the corners of a block that has rocked:
-// impulses that stop that, and slips that are stopped with it, are added to x.
+// Which contacts part under the impulses x. A contact that would part too slowly to be resolved stays closed, such as the corners of a
+// block that has rocked: the impulses that stop it, and the slips that stop with it, are added to x.
 std::vector<bool> parting(const Meeting& m, std::span<const double> e, double slow, VectorXd& x) {
   const VectorXd after = m.before + m.W * x;
   double fall = 0;
@@ -94,7 +94,7 @@ std::vector<bool> parting(const Meeting& m, std::span<const double> e, double sl
   for (std::size_t i = 0; i < e.size(); ++i) {
     const UnilateralContact& k = m.closed.unknowns[i];
     const bool opens = after[k.normal] > slow;
-    const bool goes_on = m.acceleration[k.normal] > 0;  // though slow, as a disc that is lifted straight out of a row
+    const bool goes_on = m.acceleration[k.normal] > 0;  // slow but accelerating, such as a disc lifted straight out of a row
     out.push_back(opens && (e[i] > 0 || goes_on || shows(m.system.contacts[at(m.closed.contact[i])], after[k.normal], fall)));
     if (out.back()) continue;
     creeps = creeps || opens;
@@ -138,7 +138,7 @@ Closed closed_contacts(const System& system, const State& state, const Equations
 
 std::optional<VectorXd> newton_impulses(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W,
                                         const VectorXd& before, const VectorXd& free) {
-  constexpr double rounding = 1e-10;  // of the speeds that meet
+  constexpr double rounding = 1e-10;  // relative to the approach speeds
   const double still = rounding * largest(before) + largest(free - before);
   VectorXd c = free;
   std::vector<int> slipping;
@@ -168,7 +168,7 @@ void book_driver_impulses(const System& system, const Equations& eq, const Vecto
 }
 
 std::optional<std::vector<Blow>> strike(const System& system, std::span<const int> touching, State& state, Equations& eq) {
-  constexpr double rounding = 1e-10;  // of the speeds that meet
+  constexpr double rounding = 1e-10;  // relative to the approach speeds
   VectorXd dy(system.n_y());
   if (!evaluate(system, state, eq, dy)) return std::nullopt;
   close_for_impact(system, touching, state);
@@ -189,10 +189,10 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
     e.push_back(bounce.back().e);
     by_poisson = by_poisson || pair.rigid->poisson;
   }
-  if (by_poisson && std::ranges::any_of(e, [](double each) { return each > 0; }))  // what was closed gives its impulse back as well
+  if (by_poisson && std::ranges::any_of(e, [](double each) { return each > 0; }))  // contacts that were closed return their impulse too
     for (std::size_t i = 0; i < e.size(); ++i) e[i] = system.contacts[at(closed.contact[i])].rigid->restitution;
   auto x = by_poisson ? poisson(closed, e, W, before) : newton_impulses(system, closed, e, W, before, before);
-  if (!x) {  // bodies wedged between others cannot all part as e says
+  if (!x) {  // bodies wedged between others cannot all part with restitution e
     std::ranges::fill(e, 0.0);
     x = newton_impulses(system, closed, e, W, before, before);
   }
@@ -215,7 +215,7 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
 
 namespace {
 
-// What else holds takes its share at once: W and c with it.
+// Eliminates the other holding forces from W and c: they respond at once.
 void let_others_hold(const System& system, const State& state, const Equations& eq, MatrixXd& W, VectorXd& c) {
   std::vector<Index> others;
   const auto& of = eq.sticking.of;
@@ -240,7 +240,7 @@ void let_others_hold(const System& system, const State& state, const Equations& 
 
 namespace {
 
-// Are these rates, that nothing holds, held by what holds others? Then they cost no force.
+// Are these slips or gaps, which no force holds, kept at 0 by the forces that hold others? Then they need no force of their own.
 bool is_held_by_others(const MatrixXd& W, const std::vector<Index>& holding, Index row) {
   constexpr double dependent = 1e-10;
   const auto n = static_cast<Index>(holding.size());
@@ -257,7 +257,7 @@ bool is_held_by_others(const MatrixXd& W, const std::vector<Index>& holding, Ind
   return W(row, row) - by.dot(least_norm.solve(by)) <= dependent * W(row, row);
 }
 
-// What closed contacts do under the forces x.
+// What each closed contact does under the forces x.
 enum class Doing { opens, sticks, slides };
 std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorXd& c, const VectorXd& x) {
   constexpr double nearly = 1e-9, limit = 1e-8;
@@ -284,7 +284,7 @@ std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorX
 
 }  // namespace
 
-// Where forces are not unique those that are found are some of them; what is not pressed by these, and not let go either, stays.
+// Where the forces are not unique, one solution is used. A contact that it neither presses nor lets open stays closed.
 bool decide_rigid(const System& system, State& state, Equations& eq) {
   VectorXd dy(system.n_y());
   if (!evaluate(system, without_rigid(system, state), eq, dy)) return false;

@@ -7,42 +7,45 @@
 #include "contact/complementarity.h"
 #include "framework/dynamics/equations/equations.h"
 
-/// Rigid contacts: what an impact does to the speeds, and which contacts stay closed, stick and slide after it. Theory: docs/theory/impact.md.
+/// Rigid contacts: the effect of an impact on the speeds, and which contacts stay closed, stick and slide after it. Theory:
+/// docs/theory/impact.md.
 namespace pintle {
 
-/// The closed rigid contacts, their forces or impulses by the columns of eq.sticking. After list_sticking.
+/// The closed rigid contacts, with their forces or impulses as columns of eq.sticking. After list_sticking.
 struct Closed {
   std::vector<UnilateralContact> unknowns;
   std::vector<int> contact;
 };
 Closed closed_contacts(const System&, const State&, const Equations&);
-/// Impulses by Newton's law of restitution: a gap that closed at −v⁻ opens at −e v⁻ or more, and of a slip that friction stops −e_T times
-/// it is left. Unknowns as the columns of W.
-/// @param e  restitution of each contact now   @param before, free  v⁻, and what the speeds would be without impulses
+/// Impulses by Newton's law of restitution: a gap that closed at speed −v⁻ opens at −e v⁻ or more; a slip that friction stops continues at
+/// −e_T times its speed. Unknowns are the columns of W.
+/// @param e  effective restitution of each contact   @param before, free  v⁻, and the speeds without impulses
 /// @returns nothing where none are found
 std::optional<Eigen::VectorXd> newton_impulses(const System&, const Closed&, std::span<const double> e, const Eigen::MatrixXd& W,
                                                const Eigen::VectorXd& before, const Eigen::VectorXd& free);
-/// Books what impulses x take out of the motion, at the mean of the speeds before and after.
+/// Records the energy that impulses x remove from the motion, computed with the mean of the speeds before and after.
 void book_impulses(const System&, const Closed&, const Eigen::VectorXd& x, const Eigen::VectorXd& mean, State&);
-/// Books what drivers put in by impulses of the joints.
+/// Records the energy that drivers put in by impulses of the joints.
 void book_driver_impulses(const System&, const Equations&, const Eigen::VectorXd& impulses, State&);
 
-/// What an impact does at one contact.
+/// Result of an impact at one contact.
 struct Blow {
   int contact;
   double approach;                     ///< speed before it [m/s]
   double separation;                   ///< speed after it; 0: it stays closed [m/s]
   double impulse;                      ///< normal [N s]
-  std::optional<double> at_rest = {};  ///< where it would go on to bounce, lower than speeds and places are known: when it rests [s]
+  std::optional<double> at_rest = {};  ///< when it comes to rest, where it would continue to bounce too low to be resolved [s]
 };
 
-/// The impact at one instant of contacts that touch and of the rigid ones that are closed: changes the speeds, books what is lost, and
-/// closes those that do not part. What all closed and dry contacts and joints do then is undecided.
-/// @returns nothing at a singular pose or where no impulses are found; the state is then of no use
+/// The impact, at one instant, of contacts that touch and of the rigid contacts that are closed: changes the speeds, records the energy
+/// lost, and closes the contacts that do not part. Whether closed contacts, dry contacts and joints stick or slide afterwards is left
+/// undecided.
+/// @returns nothing in a singular configuration or where no impulses are found; the state is then invalid
 std::optional<std::vector<Blow>> strike(const System&, std::span<const int> touching, State&, Equations&);
 
-/// Of the closed rigid contacts, which stay closed and of these which stick: under their forces no gap closes further, and none pulls.
-/// Those that the state has as sliding slide on; all other friction goes on as it is. @returns false where there are no such forces
+/// Decides which closed rigid contacts stay closed and which of these stick: under their forces no gap closes further, and no contact
+/// pulls. Contacts that slide in the given state continue to slide; all other friction is unchanged. @returns false where there are no such
+/// forces
 bool decide_rigid(const System&, State&, Equations&);
 
 }  // namespace pintle

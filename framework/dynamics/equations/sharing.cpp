@@ -15,10 +15,10 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
   constexpr double least = 1e-9;
   const Index m = rhs.size();
   if (m == 0) return rhs;
-  if (m == 1) return W(0, 0) == 0 ? VectorXd(VectorXd::Zero(1)) : VectorXd(rhs / W(0, 0));  // below 0 where friction jams
+  if (m == 1) return W(0, 0) == 0 ? VectorXd(VectorXd::Zero(1)) : VectorXd(rhs / W(0, 0));  // negative where friction jams
   const double most = capacity.maxCoeff();
   const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
-  // The rows that count are those of W between unit slips; among their solutions the least.
+  // The rank is that of W scaled to unit slips; of its solutions, the one of least norm is taken.
   const VectorXd unit = W.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Eigen::BDCSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Index rank = (svd.singularValues().array() > one * svd.singularValues()[0]).count();
@@ -28,7 +28,7 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
   least_norm.compute(rows);
   const VectorXd x = weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
   if (contacts.empty() || rank == m) return x;
-  // What changes no rate: an orthonormal basis of it among x/weight.
+  // Orthonormal basis, in x/weight, of the forces that change no rate.
   Eigen::HouseholderQR<MatrixXd> basis(m, m - rank);
   basis.compute(unit.cwiseQuotient(weight).asDiagonal() * svd.matrixV().rightCols(m - rank));
   return admissible_forces(contacts, x, weight.asDiagonal() * (basis.householderQ() * MatrixXd::Identity(m, m - rank)));

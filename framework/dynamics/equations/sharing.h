@@ -6,14 +6,15 @@
 
 namespace pintle {
 
-/// Singular values of W between unit slips, of its greatest, below which slips count as one.
-inline constexpr double one_give = 1e-4;    ///< where feet differ in height by a hundredth, their give decides, not their lever
-inline constexpr double one_gap = 1e-8;     ///< gaps are closed to their last digits, not by what these let bodies move
-inline constexpr double one_force = 1e-10;  ///< of rigid contacts
+/// Relative singular values of W, scaled to unit slips, below which slips count as dependent.
+inline constexpr double one_give = 1e-4;    ///< if feet differ in height by 1 %, their compliance decides, not their lever arm
+inline constexpr double one_gap = 1e-8;     ///< gaps are closed to rounding, regardless of how far the bodies can move
+inline constexpr double one_force = 1e-10;  ///< for rigid contacts
 
-/// x of W x = rhs, of which Σ x²/capacity is least: where several could hold as well each bears a part after what it holds at most.
-/// @param W  responses, symmetric positive semidefinite   @param contacts  rigid ones, by their indices of x: of x that do the same to the
-/// motion, one under which these neither pull nor hold more than friction can, where there is one
+/// Solution x of W x = rhs with the least Σ x²/capacity: where several forces could hold together, each bears a share according to the most
+/// it can hold.
+/// @param W  responses, symmetric positive semidefinite   @param contacts  rigid contacts, by their indices in x: among solutions x with
+/// the same effect on the motion, one is chosen under which these neither pull nor hold more than friction can, where there is one
 Eigen::VectorXd share_out(const Eigen::MatrixXd& W, const Eigen::VectorXd& rhs, const Eigen::VectorXd& capacity, double one,
                           std::span<const UnilateralContact> contacts = {});
 

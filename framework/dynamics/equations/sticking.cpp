@@ -5,7 +5,7 @@
 
 #include "framework/dynamics/equations/sticking_columns.h"
 
-// Which forces the accelerations decide, and what each is asked: its gap's or slip's rate.
+// Which forces the accelerations determine, and the condition for each: the rate of its gap or slip.
 namespace pintle {
 
 using Eigen::Index;
@@ -52,7 +52,7 @@ FrictionNow friction_now(const System& system, const Equations& eq, std::size_t 
 
 namespace {
 
-// The two markers that one of these forces acts on, and what 1 N of it does there.
+// The two markers that one of these forces acts on, and the wrench of 1 N there.
 struct Acting {
   std::array<int, 2> marker;
   std::array<Wrench, 2> unit;
@@ -69,7 +69,7 @@ Acting acting(const System& system, const Equations& eq, const Sticking::Column&
   return {{ends.marker[0], ends.marker[1]}, unit_friction(joint, rub, eq.motion[at(ends.marker[0])], eq.motion[at(ends.marker[1])])};
 }
 
-// The rate of its opening speed or slip where no coordinate is accelerated.
+// The rate of its opening speed or slip with all coordinate accelerations zero.
 double own_acceleration(const System& system, const Equations& eq, const Sticking::Column& c) {
   if (of_contact(system, c.at)) {
     const ContactPair& pair = system.contacts[c.at];

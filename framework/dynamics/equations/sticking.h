@@ -2,27 +2,27 @@
 
 #include "framework/dynamics/equations/equations.h"
 
-/// Forces that the accelerations decide. A closed rigid contact holds its gap, and what sticks its slip, at 0 by a force, as a constraint
-/// equation Jᵀs = 0 does by its multiplier; what slides in a joint has T = −d μ N with N of the joint's own multipliers, what slides in a
-/// rigid contact with its own normal force. These come and go, so they are bordered onto the solution without them instead of being rows of
-/// Cq. Theory: docs/theory/friction.md, docs/theory/impact.md.
+/// Forces that the accelerations determine. A force keeps the gap of a closed rigid contact, or the slip of a contact that sticks, at 0, as
+/// the multiplier of a constraint equation Jᵀs = 0 does. Sliding friction in a joint is T = −d μ N with N from the joint's own multipliers;
+/// in a rigid contact N is its own normal force. These forces come and go, so they are added to the solution without them as a border
+/// instead of as rows of Cq. Theory: docs/theory/friction.md, docs/theory/impact.md.
 namespace pintle {
 
 /// The friction at this place of State::friction sticks.
 bool sticks(const System&, const State&, std::size_t at);
-/// It is friction in a joint that is released: it does nothing.
+/// It is friction in a released joint, and has no effect.
 bool rubs_in_released_joint(const System&, const State&, std::size_t at);
-/// This contact is rigid and closed, and its normal force is for the accelerations to decide.
+/// This contact is rigid and closed, and the accelerations determine its normal force.
 bool holds_gap(const System&, const State&, std::size_t contact);
 /// The law of the friction at this place; nullptr where that is not dry.
 const Coulomb* dry_law(const System&, std::size_t at);
-/// What it says of the friction at this place, in evaluated equations: force, slip, and the most that it holds, μ_s N; 0 without friction.
+/// State of the friction at this place, in evaluated equations: force, slip, and the most it can hold, μ_s N; 0 without friction.
 struct FrictionNow {
   double force, slip, holds;
 };
 FrictionNow friction_now(const System&, const Equations&, std::size_t at);
 
-/// What friction in joints does with the forces that the state has: eq.friction, and their share of f. In `apply_forces`.
+/// Friction in joints due to the forces in the state: fills eq.friction and adds to f. Called by `apply_forces`.
 void add_joint_friction(const System&, const State&, Equations&);
 /// Fills `of` and J of eq.sticking. After speed, contacts evaluated.
 void list_sticking(const System&, const State&, Equations&);
@@ -30,35 +30,35 @@ void list_sticking(const System&, const State&, Equations&);
 void evaluate_held(const System&, const State&, Equations&);
 /// a and λ of eq.sticking. After list_sticking. @returns W = Jᵀ a
 Eigen::MatrixXd respond_to_sticking(const System&, Equations&);
-/// Rates of the opening speeds and slips of eq.sticking under the accelerations eq.a.
+/// Rates of the opening speeds and slips of eq.sticking for the accelerations eq.a.
 Eigen::VectorXd sticking_accelerations(const System&, const Equations&);
-/// Brings λ, a, f, contacts and joints to the forces under which no closed gap opens, nothing that sticks is accelerated along its slip,
-/// and what slides rubs as it is pressed. In `accelerate`. @returns false where no such forces are found
+/// Updates λ, a, f, contacts and joints to the forces under which no closed gap opens, no sticking contact accelerates along its slip, and
+/// sliding friction matches its normal force. Called by `accelerate`. @returns false where no such forces are found
 bool hold_sticking(const System&, const State&, Equations&);
-/// Closes the gaps of closed rigid contacts, and takes their opening speeds, and slips of what sticks, out of the speeds; leaves `speed`
-/// as for the corrected state. After `project`. @returns false where the joints do not let a gap close
+/// Closes the gaps of closed rigid contacts, and removes their opening speeds and the slips of sticking contacts from the speeds; leaves
+/// `speed` as for the corrected state. After `project`. @returns false where the joints do not let a gap close
 bool remove_slip(const System&, State&, Equations&);
-/// What was decided, kept in the state. After accelerate.
+/// Stores the forces determined in the state. After accelerate.
 void keep_friction(const System&, const Equations&, State&);
 
-/// Of the columns of eq.sticking, what 1 N of each does to the slips and to λ.
+/// Effect of 1 N of each column of eq.sticking on the slips and on λ.
 struct FrictionResponse {
   const Eigen::MatrixXd &W, &lambda;
 };
-/// Does a change of forces share out again what several could hold, or only what it changes, to its own last digits?
+/// Does a change of forces redistribute the whole load among the contacts, or only the change, which is then accurate to rounding?
 enum class Shares { all, change };
-/// Change of the forces T of eq.sticking from `before`: W δT = slips for what holds, T = −d μ N for what slides, N of the multipliers
-/// λ + response δT or of its own contact. Where others could hold as well, as at two corners of a box on one ground, each bears a part after what it
-/// holds at most: Σ T²/(μ_s N) is least, among forces that rigid contacts can give. Slips that hardly differ count as one. Not finite where
-/// nothing is found.
+/// Change of the forces T of eq.sticking from `before`: W δT = slips where it holds, T = −d μ N where it slides, with N from the
+/// multipliers λ + response δT or from its own contact. Where several forces could hold, as at two corners of a box on one ground, each
+/// bears a share according to the most it can hold: Σ T²/(μ_s N) is least, among forces that rigid contacts can exert. Nearly equal slips
+/// count as one. Not finite where no solution is found.
 Eigen::VectorXd friction_change(const System&, const State&, const Equations&, const FrictionResponse&, Shares,
                                 const Eigen::VectorXd& slips, const Eigen::VectorXd& lambda, const Eigen::VectorXd& before);
-/// Of what holds alone: forces that take away these slips, 0 for what slides.
+/// Only for what holds: forces that remove these slips, 0 for what slides.
 Eigen::VectorXd holding_forces(const System&, const Equations&, const Eigen::MatrixXd& W, const Eigen::VectorXd& slips);
-/// Of eq.sticking, in the state and as last evaluated [N], [m/s].
+/// Forces and slips of eq.sticking, in the state and as last evaluated [N], [m/s].
 Eigen::VectorXd forces(const State&, const Equations&);
 Eigen::VectorXd slips(const System&, const Equations&);
-/// Puts forces, and the loads of joints that go with these multipliers, into the state.
+/// Stores the forces, and the joint loads that follow from these multipliers, in the state.
 void put_forces(const System&, const Equations&, const Eigen::VectorXd& forces, const Eigen::VectorXd& lambda, State&);
 
 }  // namespace pintle

@@ -8,7 +8,7 @@
 #include "framework/dynamics/equations/sharing.h"
 #include "framework/dynamics/equations/sticking_columns.h"
 
-// The forces themselves, and the speeds and gaps that they leave.
+// The forces themselves, and the speeds and gaps that result.
 namespace pintle {
 
 using Eigen::Index;
@@ -41,7 +41,7 @@ void put(const VectorXd& values, const Places& at, VectorXd& v) {
   for (Index i = 0; i < values.size(); ++i) v[at[place(i)]] = values[i];
 }
 
-// Of what slides, under this load.
+// Sliding friction under this load.
 double sliding_force(const System& system, const State& state, const Equations& eq, std::size_t k, double load) {
   const Coulomb* dry = dry_law(system, k);
   if (!dry) return eq.friction[joint_friction(system, k)].per_load * load;
@@ -52,7 +52,7 @@ double force_of(const System& system, const Equations& eq, const Sticking::Colum
   return c.normal ? eq.contact[c.at].normal.force : friction_now(system, eq, c.at).force;
 }
 
-// What each holds at most, of a normal force as much as any friction.
+// The most that each can hold, for normal forces as for friction.
 VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
   VectorXd out(static_cast<Index>(of.size()));
   const auto column = [&](Index i) -> const Sticking::Column& { return eq.sticking.of[place(of[place(i)])]; };
@@ -63,7 +63,7 @@ VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
   return out;
 }
 
-// The rigid contacts among what holds, by their places there.
+// The rigid contacts among the holding forces, by their places there.
 std::vector<UnilateralContact> rigid_among(const System& system, const Sticking& s, const Places& hold) {
   std::vector<UnilateralContact> out;
   for (std::size_t i = 0; i < hold.size(); ++i) {
@@ -76,10 +76,10 @@ std::vector<UnilateralContact> rigid_among(const System& system, const Sticking&
   return out;
 }
 
-// What slides in a rigid contact rubs as its own normal force presses it, T = c N: what 1 N of that does, with its friction.
+// Sliding friction in a rigid contact follows its own normal force, T = c N: response to 1 N of the normal force with this friction.
 struct Coupled {
   MatrixXd W, lambda, by_friction;     ///< the last: of the multipliers, what its friction does alone
-  Places normal, friction, of_joints;  ///< columns of such contacts, and of what slides in joints
+  Places normal, friction, of_joints;  ///< columns of such contacts, and of sliding friction in joints
   VectorXd c;
 };
 Coupled couple(const System& system, const State& state, const Equations& eq, const FrictionResponse& by) {
@@ -111,7 +111,8 @@ VectorXd holding_forces(const System& system, const Equations& eq, const MatrixX
   return out;
 }
 
-// What slides in joints makes this nonlinear, for N is a norm of λ: Newton's method on T_i + d_i μ_i N_i = 0, what holds solved for in each.
+// Sliding friction in joints makes this nonlinear, since N is a norm of λ: Newton's method on T_i + d_i μ_i N_i = 0, solving for the
+// holding forces in each iteration.
 VectorXd friction_change(const System& system, const State& state, const Equations& eq, const FrictionResponse& by, Shares shares,
                          const VectorXd& slips, const VectorXd& lambda, const VectorXd& before) {
   constexpr int most = 30;
@@ -120,14 +121,14 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   const Coupled with = couple(system, state, eq, by);
   const Places hold = those(s, true), &slide = with.of_joints;
   const MatrixXd W_hold = part(with.W, hold, hold), W_slide = part(by.W, hold, slide);
-  const VectorXd off = with.c.cwiseProduct(part(before, with.normal)) - part(before, with.friction);  // as they press now
+  const VectorXd off = with.c.cwiseProduct(part(before, with.normal)) - part(before, with.friction);  // for the present normal forces
   const VectorXd holds = capacity(system, eq, hold), held = shares == Shares::all ? part(before, hold) : VectorXd::Zero(W_hold.rows()),
                  asked = W_hold * held + part(slips, hold) - part(by.W, hold, with.friction) * off,
                  lambda_off = lambda + with.by_friction * off;
   const std::vector<UnilateralContact> rigid = rigid_among(system, s, hold);
   const double one = rigid.empty() ? one_give : one_force;
   VectorXd change = VectorXd::Zero(before.size()), loads(static_cast<Index>(slide.size()));
-  const auto missed = [&](const VectorXd& sliding) {  // a change of what slides
+  const auto missed = [&](const VectorXd& sliding) {  // of a change of the sliding forces
     put(sliding, slide, change);
     put(share_out(W_hold, asked - W_slide * sliding, holds, one, rigid) - held, hold, change);
     const VectorXd now = lambda_off + with.lambda * change;
@@ -141,7 +142,7 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
     return out;
   };
   VectorXd sliding = VectorXd::Zero(loads.size()), left = missed(sliding);
-  const double others = largest(before) + largest(lambda) + largest(eq.f);  // beside which a load that vanishes is rounding
+  const double others = largest(before) + largest(lambda) + largest(eq.f);  // relative to these, a load that vanishes is rounding
   double left_before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most && slide.size() > 0; ++i) {
     const double scale = largest(loads) + largest(left), error = largest(left);
@@ -160,7 +161,7 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
 
 namespace {
 
-// Of each force the greatest of all that press on each other with it: of that, solving for them at once loses the last digits.
+// For each force, the greatest of all forces coupled with it: solving for them together loses the last digits of that one.
 VectorXd greatest_together(const MatrixXd& W, VectorXd force) {
   constexpr double coupled = 1e-12;
   const VectorXd own = W.diagonal().cwiseAbs().cwiseSqrt();
@@ -173,12 +174,12 @@ VectorXd greatest_together(const MatrixXd& W, VectorXd force) {
   return force;
 }
 
-// What balanced forces of rigid contacts leave in the last digits is none: a body at rest would else be followed as if it moved.
+// Rounding left by balanced forces of rigid contacts is set to zero: otherwise a body at rest would be treated as moving.
 void add_accelerations(const VectorXd& change, const VectorXd& before, const MatrixXd& W, Equations& eq) {
   const Sticking& s = eq.sticking;
   eq.a += s.a * change;
   if (std::ranges::find(s.of, true, &Sticking::Column::normal) == s.of.end()) return;
-  const double rounding = 2e-15 * (5 + static_cast<double>(count(s)));  // of sums of so many terms
+  const double rounding = 2e-15 * (5 + static_cast<double>(count(s)));  // rounding of sums of so many terms
   const VectorXd terms = s.a.cwiseAbs() * greatest_together(W, before.cwiseAbs() + change.cwiseAbs());
   eq.a = (eq.a.array().abs() > rounding * terms.array()).select(eq.a, 0);
 }
@@ -215,7 +216,7 @@ bool hold_sticking(const System& system, const State& state, Equations& eq) {
 
 namespace {
 
-// By how far closed rigid contacts overlap.
+// Overlaps of closed rigid contacts.
 VectorXd overlaps(const Equations& eq) {
   VectorXd out = VectorXd::Zero(count(eq.sticking));
   for (Index i = 0; i < out.size(); ++i)

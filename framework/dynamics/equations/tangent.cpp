@@ -18,7 +18,7 @@ using Block = Eigen::Map<Eigen::MatrixXd>;
 
 namespace {
 
-// Of friction in a joint, whose load is held.
+// Friction in a joint, with its load held constant.
 bool answers_to_speed(const FrictionLaw& law) {
   const auto* dry = std::get_if<Coulomb>(&law);
   return !dry || dry->stribeck > 0;
@@ -42,7 +42,7 @@ Tangent::Tangent(const System& system) : ends_(most_ends, MarkerJacobian(system)
     if (body.modes() > 0) flexible_.emplace_back(body.modes());
 }
 
-// Notes the interaction with 0 for each block that it has; lay_out turns these into places.
+// Notes the interaction with 0 for each block that it has; lay_out replaces these by places.
 void Tangent::add(const System& system, Interaction::Kind kind, std::size_t index, const JointEnds& ends, const WrenchPattern& pattern) {
   const auto moves = [&](std::size_t end) { return system.markers[at(ends.marker[end])].body != ground; };
   const auto owner = kind == Interaction::force     ? InternalStates::force
@@ -131,7 +131,7 @@ void Tangent::add_inertia(const System& system, const State& state, const Equati
   }
 }
 
-// −Σ f·∂²p/∂q²: forces keep their place on bodies that turn and bend.
+// −Σ f·∂²p/∂q²: forces stay at their points on bodies that turn and bend.
 void Tangent::add_geometric_stiffness_of_forces(const System& system, const Equations& eq, const VectorXd& lambda, double weight,
                                                 double* values) const {
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
@@ -193,7 +193,7 @@ WrenchTangent Tangent::wrenches(const System& system, const Equations& eq, const
   return wrench_tangent(system.joints[x.index], eq.motion.data(), lambda.data() + system.row_begin[x.index]);
 }
 
-// −Jᵀ(P J + D V) in q and −JᵀD J in s, P and D the derivatives of the wrenches in poses and their rates.
+// −Jᵀ(P J + D V) for q and −JᵀD J for s, where P and D are the derivatives of the wrenches with respect to poses and their rates.
 void Tangent::add_interactions(const System& system, const State& state, const Equations& eq, const VectorXd& lambda, const Weights& w,
                                double* values) {
   for (const Interaction& x : interactions_) {

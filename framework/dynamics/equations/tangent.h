@@ -9,10 +9,9 @@
 
 namespace pintle {
 
-/// How the residual of the equations of motion, r(q, s, a, λ, t) = M a + Cqᵀλ − f, answers to small
-/// changes: ∂r/∂q, ∂r/∂s and ∂r/∂a = M, each n × n. Its pattern follows from the system alone: a block for
-/// each body and two for each two bodies whose interaction answers to their relative motion; pins and
-/// welds, which do not, couple no bodies. Theory: docs/theory/tangent.md.
+/// Derivatives of the residual of the equations of motion, r(q, s, a, λ, t) = M a + Cqᵀλ − f: ∂r/∂q, ∂r/∂s and ∂r/∂a = M, each n × n. Its
+/// pattern follows from the system alone: a block for each body and two for each pair of bodies whose interaction depends on their relative
+/// motion; pins and welds do not, and couple no bodies. Theory: docs/theory/tangent.md.
 class Tangent {
  public:
   explicit Tangent(const System&);
@@ -20,37 +19,36 @@ class Tangent {
   struct Place {
     int row, column;
   };
-  /// Where each summand stands, in the order of `evaluate`; the same at each state. A place may have
-  /// several summands.
+  /// The place of each summand, in the order of `evaluate`; the same in every state. A place may have several summands.
   const std::vector<Place>& places() const { return places_; }
 
   using Weights = TangentWeights;
-  /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  λ and a held, internal states as w.x says. No allocation.
+  /// values[i] ← summand i of  w.q ∂r/∂q + w.s ∂r/∂s + w.a M,  with λ and a held, internal states according to w.x. No allocation.
   /// @pre pose, speed, update_mass and apply_forces were called at `state`; values has places().size()
   void evaluate(const System&, const State&, const Equations&, const Eigen::VectorXd& a, const Eigen::VectorXd& lambda, const Weights& w,
                 std::vector<double>& values);
 
-  /// ∂f/∂x, and of g = ẋ the derivatives in q, s and x: how forces and internal states answer to each other. Same @pre.
+  /// ∂f/∂x, and the derivatives of g = ẋ with respect to q, s and x: how forces and internal states affect each other. Same @pre.
   struct Internal {
     Eigen::MatrixXd f_x, g_q, g_s, g_x;  ///< n × n_x, n_x × n, n_x × n, n_x × n_x
   };
   Internal internal(const System&, const State&, const Equations&);
 
  private:
-  /// A body's own block, by columns: entry (i, j) on [x y θ η] is summand begin + i + j·stride. A rigid
-  /// body that no interaction needs more of has its diagonal only: stride 0.
+  /// A body's own block, by columns: entry (i, j) on [x y θ η] is summand begin + i + j·stride. A rigid body whose interactions need no
+  /// more has only its diagonal: stride 0.
   struct Own {
     int begin, stride;
   };
-  /// What answers to poses or rates of its n markers. block[i][j]: first summand of ∂(force on body i)/
-  /// ∂(coordinates of body j), by columns; −1 where there is none.
+  /// An interaction that depends on poses or rates of its n markers. block[i][j]: first summand of ∂(force on body i)/∂(coordinates of body
+  /// j), by columns; −1 where there is none.
   struct Interaction {
     enum Kind { joint, force, contact, friction } kind;
     std::size_t index, n;
     std::array<int, most_ends> marker;
     std::array<std::array<int, most_ends>, most_ends> block;
     bool rate;
-    int owner;  ///< of internal states, index into System::internal; −1: it has none
+    int owner;  ///< of internal states, index into System::internal; −1: none
   };
 
   void lay_out(const System&);
@@ -70,7 +68,7 @@ class Tangent {
   LawTangent laws_;
 };
 
-/// The same as a dense matrix; for those who have time.
+/// The same as a dense matrix; slow.
 Eigen::MatrixXd dense(const System&, const Tangent&, const std::vector<double>& values);
 
 }  // namespace pintle

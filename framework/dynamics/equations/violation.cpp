@@ -22,7 +22,7 @@ double angle_rounding(const System& system, const VectorXd& y) {
 }
 
 double fastest_rate(const System& system, const VectorXd& y) {
-  double fastest = 1e-9;  // less is rest
+  double fastest = 1e-9;  // slower counts as rest
   const Index n = system.n();
   for (Index i = 0; i < n; ++i) fastest = worse(fastest, std::abs(y[n + i]) / system.scale[i]);
   return fastest;

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 using M = const MarkerMotion&;
 using Gradient = Eigen::Matrix<double, 6, 1>;
 
-/// The span: its length and direction t, and the derivatives of e by both poses, that of ∇e by n = Zt along the motion.
+/// The span: its length and direction t, the derivatives of e with respect to both poses, and the derivative of ∇e along n = Zt.
 struct Span {
   double length, angle;
   Vector2d t;
@@ -69,7 +69,7 @@ ForceEffect effect(const BeltSpan& s, M a, M b, double, const double*) {
 
 WrenchPattern pattern(const BeltSpan& s) { return {{{{true, true}, {true, true}}}, s.c != 0}; }
 
-// Of −T ∇e: −∇e ∂T − T ∂∇e, with ∂∇e = bend bendᵀ / ℓ.
+// Tangent of −T ∇e: −∇e ∂T − T ∂∇e, with ∂∇e = bend bendᵀ / ℓ.
 void curve(const BeltSpan& s, const ForceEffect& now, M a, M b, WrenchTangent& out) {
   const Span span = span_of(s, a, b);
   const double pull = -now.on_b.head<2>().dot(span.t);

@@ -9,8 +9,8 @@ namespace pintle {
 
 struct ForceEffect;
 
-/// An elastic belt between two pulleys, on which it does not slip. A radius is > 0 where the belt, that runs from a to b, goes
-/// round its pulley counter-clockwise. With d = r_b − r_a, δ = radius_b − radius_a and the angle τ of the span
+/// An elastic belt between two pulleys, on which it does not slip. A radius is > 0 where the belt, running from a to b, goes round its
+/// pulley counter-clockwise. With d = r_b − r_a, δ = radius_b − radius_a and the angle τ of the span
 ///   |d| sin(ψ − τ) = δ,  ℓ = √(|d|² − δ²),  e = ℓ − δ τ + radius_b φ_b − radius_a φ_a,
 ///   tension = max(0, k (e − loose) + c ė) while e > loose, else 0.
 /// Theory: docs/theory/gears.md.
@@ -19,7 +19,7 @@ struct BeltSpan {
   double radius_a, radius_b;  ///< not 0 [m]
   double k, c;                ///< [N/m], [N s/m]
   double loose = 0;           ///< e without tension [m]
-  double turn = 0;            ///< τ at the start, from which it stays within half a turn [rad]
+  double turn = 0;            ///< τ at the start; it stays within half a turn of this [rad]
   auto members() const { return std::tie(a, b, radius_a, radius_b, k, c, loose, turn); }
 };
 
@@ -31,7 +31,7 @@ Elongation elongation(const BeltSpan&, const MarkerMotion& a, const MarkerMotion
 /// [N]
 double tension(const BeltSpan&, const MarkerMotion& a, const MarkerMotion& b);
 
-/// As of every force: forces.h.
+/// Same functions as for every force: forces.h.
 ForceEffect effect(const BeltSpan&, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x);
 WrenchPattern pattern(const BeltSpan&);
 void curve(const BeltSpan&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b, WrenchTangent&);

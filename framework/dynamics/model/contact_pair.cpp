@@ -81,7 +81,7 @@ std::vector<InternalState> internal_states(const FrictionLaw& law) {
   return all;
 }
 
-// Bristles are bent by the slip whatever presses them.
+// Slip bends the bristles whatever the normal force.
 ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry,
                        const double* x) {
   ContactEffect out;
@@ -142,7 +142,7 @@ void add_normal(const ContactPair& pair, double force, ContactEffect& effect) {
 
 namespace {
 
-// Of the two middles, a's over b's, and what of its rate turning bodies alone make.
+// Velocity of a's middle relative to b's, and the part of its rate due to the rotation of the bodies alone.
 Vector2d speed_of_middles(const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
   return a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
 }
@@ -158,7 +158,7 @@ double slip_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMo
          gap.turning * speed_of_middles(gap, a, b).dot(gap.n);
 }
 
-// d/dt of −n·v − s w, w the spin of the straight piece, s = e·Zn; the touched points of curves move along them besides.
+// d/dt of −n·v − s w, where w is the spin of the straight piece and s = e·Zn; on curves the contact points also move along them.
 double opening_acceleration(const ContactPair& pair, const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
   if (pair.flank) return of_markers(unit_normal(pair, gap), a, b) - closing_acceleration(*pair.flank, moving_point(a), moving_point(b));
   const double sideways = speed_of_middles(gap, a, b).dot(perp(gap.n));
@@ -172,16 +172,16 @@ double opening_acceleration(const ContactPair& pair, const Gap& gap, const Marke
 
 namespace {
 
-using Row = Eigen::Matrix<double, 1, 6>;  // derivatives in the poses of the two middles, or in their rates
+using Row = Eigen::Matrix<double, 1, 6>;  // derivatives with respect to the poses of the two middles, or to their rates
 
 Row in_poses(const Rolling::Part& part, const Vector2d& t) {
   return (Row() << part.across * t.transpose(), part.a, -part.across * t.transpose(), part.b).finished();
 }
 
-// How the gap answers to the middles of the pieces, each with its own v: docs/theory/contact.md.
+// How the gap depends on the middles of the pieces, each with its own v: docs/theory/contact.md.
 struct GapRows {
-  Row n_p, s_p;                                // dn = Zn · n_p dp; of `across`
-  Row on_a = Row::Zero(), on_b = Row::Zero();  // how far the touched points move along their curves
+  Row n_p, s_p;                                // dn = Zn · n_p dp; derivative of `across`
+  Row on_a = Row::Zero(), on_b = Row::Zero();  // how far the contact points move along their curves
   Row depth_p, rate_p, rate_v, slip_p, slip_v;
 };
 
@@ -189,10 +189,10 @@ GapRows rows_of(const ContactPair& pair, const Gap& gap, const Vector2d& v, doub
   const Piece &a = pair.gap.a, &b = pair.gap.b;
   const Vector2d &n = gap.n, t = perp(n);
   const double s = gap.across;
-  const double spin = a.straight ? w_a : b.straight ? w_b : 0;  // that turns n
+  const double spin = a.straight ? w_a : b.straight ? w_b : 0;  // of the straight piece; n rotates with it
   const bool curved = pair.gap.curved();
-  const double curving = a.straight || b.straight || curved ? 0 : 1 / n.dot(gap.e);     // of n by e across
-  const double across = v.dot(t), along = v.dot(n), turning = curving * across + spin;  // of n
+  const double curving = a.straight || b.straight || curved ? 0 : 1 / n.dot(gap.e);     // rotation of n per displacement across e
+  const double across = v.dot(t), along = v.dot(n), turning = curving * across + spin;  // turning: rate of rotation of n
 
   const auto between = [](const Vector2d& d) { return (Row() << d.transpose(), 0, -d.transpose(), 0).finished(); };
   GapRows out;
@@ -211,7 +211,7 @@ GapRows rows_of(const ContactPair& pair, const Gap& gap, const Vector2d& v, doub
   out.slip_v = between(t), out.slip_p = -along * out.n_p;
   if (pair.sliding == Sliding::material) {
     out.slip_v[2] += a.radius, out.slip_v[5] += b.radius;
-  } else {  // depth · turning, of arcs
+  } else {  // arcs: depth · turning
     out.slip_v *= gap.depth * curving;
     out.slip_p = turning * out.depth_p + gap.depth * curving * out.slip_p - gap.depth * curving * turning * between(n);
   }
@@ -243,7 +243,8 @@ WrenchTangent at_middles(const ContactPair& pair, const ContactEffect& now, cons
   return out;
 }
 
-// Derivatives at the middles, on arms that the carrying points turn, as derivatives at these points: dp = dr + Zd dθ, dṗ = dv + Zd dw − d w dθ.
+// Converts derivatives at the middles into derivatives at the carrying points, which carry the middles on arms d: dp = dr + Zd dθ, dṗ = dv
+// + Zd dw − d w dθ.
 template <class Matrix>
 void by_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>& w, Matrix& pose, Matrix& rate) {
   for (int j = 0; j < 2; ++j) {
@@ -255,7 +256,7 @@ void by_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>
   }
 }
 
-// The same of wrenches, which come to the carrying points with d × F.
+// The same for wrenches, which at the carrying points gain the moment d × F.
 void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<double, 2>& w, const Vector2d& force, WrenchTangent& tangent) {
   by_carriers(arm, w, tangent.pose, tangent.rate);
   for (int i = 0; i < 2; ++i) {

@@ -20,7 +20,7 @@ using namespace joint_parts;
 
 // ---- gears: r_a φ_a + r_b φ_b − s ψ, s = r_a + r_b, ψ̇ = n·ḋ/|d|, n = Ze ----
 
-// The line of centres is the same after a whole turn, so C is what is nearest to 0 of raw + 2π s k.
+// A whole turn of the line of centres gives the same line, so C is the value of raw + 2π s k nearest to 0.
 double nearest_to_zero(double raw, double s) {
   const double turn = 2 * std::numbers::pi * std::abs(s);
   return turn > 0 ? std::remainder(raw, turn) : raw;
@@ -43,7 +43,7 @@ double mesh_kappa(const Gear& j, M a, M b) {
   const double length = (b.r - a.r).norm();
   return length > 0 ? 2 * sum_of_radii(j) * e.dot(v) * cross(e, v) / (length * length) : 0;
 }
-// The Hessian of C in d.
+// The Hessian of C with respect to d.
 Matrix2d mesh_curvature(const Gear& j, M a, M b) {
   const double length = (b.r - a.r).norm();
   if (length == 0) return Matrix2d::Zero();
@@ -64,7 +64,7 @@ double side(double radius) { return radius < 0 ? -1 : 1; }
 
 // ---- relations ----
 
-/// A coordinate of two markers, with its derivatives by their poses.
+/// A coordinate between two markers, with its derivatives with respect to their poses.
 struct Measured {
   double value;
   Vector3d on_a, on_b;
@@ -93,7 +93,7 @@ void measured_tangent(const Coordinate& c, M a, M b, double lambda, WrenchTangen
 }
 
 M end(const Relation& j, const MarkerMotion* m, int i) { return m[j.ends.marker[at(i)]]; }
-// The curve at the first coordinate.
+// The curve evaluated at the first coordinate.
 Jet curve_now(const Relation& j, const MarkerMotion* m) {
   const Coordinate& c = j.coordinates.front();
   return j.curve ? j.curve(measured(c.kind, end(j, m, c.a), end(j, m, c.b)).value) : Jet{};

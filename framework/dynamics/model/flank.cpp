@@ -17,7 +17,7 @@ MarkerMotion as_marker(const MovingPoint& p) {
 }
 Row rates_of(const Motions& m) { return (Row() << m[0].v.transpose(), m[0].w, m[1].v.transpose(), m[1].w).finished(); }
 
-/// Depth is Σ weight C − half.
+/// Weights in depth = Σ weight C − half.
 Vector2d weights(const Flank& f) { return {-std::sin(f.angle), f.side * std::cos(f.angle)}; }
 
 struct Depth {
@@ -66,7 +66,7 @@ double closing_acceleration(const Flank& f, const MovingPoint& a, const MovingPo
   return weights(f).dot(rows.kappa.head<2>());
 }
 
-// wrench = −N ∂depth/∂p:  minus the second derivatives of the depth are `bend`.
+// wrench = −N ∂depth/∂p; `bend` holds minus the second derivatives of the depth.
 WrenchTangent wrench_tangent(const Flank& f, const NormalForce& normal, const MovingPoint& a, const MovingPoint& b) {
   const Motions m{as_marker(a), as_marker(b)};
   const Row by_pose = depth_of(f, m).by_pose;

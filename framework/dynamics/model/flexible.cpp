@@ -20,7 +20,7 @@ double form(const Eigen::MatrixXd& F, const A& a, const B& b) {
   return sum;
 }
 
-// w = c + Sη + ½ηᵀS₂η, the origin being the mass centre: c = 0.
+// w = c + Sη + ½ηᵀS₂η, with c = 0 since the origin is the mass centre.
 Vector2d first_moment(const FlexInertia& f, const Part& eta) {
   Vector2d w(f.S.row(0).dot(eta), f.S.row(1).dot(eta));
   if (f.second) w += Vector2d(form(f.second->S[0], eta, eta), form(f.second->S[1], eta, eta)) / 2;
@@ -39,7 +39,7 @@ void turn_columns(double c, double s, Eigen::Matrix3Xd& B) {
   for (Index i = 0; i < B.cols(); ++i) B.col(i).head<2>() = turned(c, s, B.col(i).head<2>());
 }
 
-// R = L Lᵀ written out, root = L⁻ᵀ.
+// Written-out factorization R = L Lᵀ, root = L⁻ᵀ.
 bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
   if (!(R(0, 0) > 0)) return false;
   const double i0 = 1 / std::sqrt(R(0, 0)), l10 = R(1, 0) * i0, l20 = R(2, 0) * i0, d1 = R(1, 1) - l10 * l10;
@@ -52,7 +52,7 @@ bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
   return out.inverse.allFinite();
 }
 
-// Forces on η of ½ zᵀM z, z = M⁻¹Bη̇, which E adds to kinetic energy, times sign: −d/dt(Bᵀz) + ∂/∂η without
+// Generalized forces on η of the term ½ zᵀM z, z = M⁻¹Bη̇, that E adds to the kinetic energy, times sign: −d/dt(Bᵀz) + ∂/∂η without
 // accelerations. bend = Ḃη̇, G_rate = Gη̇.
 void add_carried(const FlexibleInertia::Part& p, const Eigen::Vector3d& bend, const Part& rate, const VectorXd& G_rate, double sign,
                  Eigen::Ref<VectorXd> modal) {
@@ -87,7 +87,7 @@ void evaluate_inertia(const System& system, const VectorXd& q, double c, double 
   const FlexInertia& f = *body.flex;
   const Part eta(q.data() + e.begin, e.n);
   FlexibleInertia::Part& p = e.whole;
-  for (Index i = 0; i < e.n; ++i) p.B.col(i) << f.S(0, i), f.S(1, i), f.h[i] + f.G.col(i).dot(eta);  // body axes for now
+  for (Index i = 0; i < e.n; ++i) p.B.col(i) << f.S(0, i), f.S(1, i), f.h[i] + f.G.col(i).dot(eta);  // still in body axes
   p.j = f.j + eta.transpose();
   double J = body.J + (f.j + p.j).dot(eta);  // J₀ + 2jη + ηᵀη
   if (e.stiffens) {
@@ -121,8 +121,8 @@ bool invert(FlexibleInertia& e) {
   return invert(R, e.frame);
 }
 
-// Without foreshortening the shapes are eliminated first, for their block is 1; with it the frame, for then
-// 1 − B₁ᵀM₁⁻¹B₁ is left, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
+// Without foreshortening the shapes are eliminated first, since their block is 1. With it the frame is eliminated first, since then 1 −
+// B₁ᵀM₁⁻¹B₁ is left, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
 void solve(FlexibleInertia& e, double* v) {
   Eigen::Map<Eigen::Vector3d> r(v + 3 * e.body);
   Eigen::Map<VectorXd> eta(v + e.begin, e.n);
@@ -200,7 +200,7 @@ void add_forces(const System& system, const VectorXd& y, FlexibleInertia& e, Vec
   auto modal = f.segment(e.begin, e.n);
 
   const FlexibleInertia::Part& p = e.whole;
-  if (has_gravity(system)) {  // M times an acceleration of the frame
+  if (has_gravity(system)) {  // M times the acceleration of the frame
     const Vector2d& g = system.gravity;
     r[0] += body.m * g.x();
     r[1] += body.m * g.y();

@@ -77,7 +77,7 @@ void add_frame(double mass, const FlexibleInertia& e, const Motion& m, const Tan
   }
 }
 
-// Rows and columns of the shapes, but for what E adds.
+// Rows and columns of the shapes, without the contribution of E.
 void add_shapes(const FlexInertia& f, const Motion& m, const TangentWeights& w, Square K) {
   const Index n = m.eta.size();
   auto shapes = K.bottomRightCorner(n, n);
@@ -92,14 +92,14 @@ void add_shapes(const FlexInertia& f, const Motion& m, const TangentWeights& w, 
   shapes += push.x() * F.S[0] + push.y() * F.S[1] + w.q * m.spin_accel * F.h - w.q * spin2 * F.j;
 }
 
-// Ṁx where the first moment changes by q_h and the half of J by j.
+// Ṁx where the first moment changes by q_h and half of J by j.
 Vector3d inertia_change(const Vector3d& q, double j, const Vector3d& x) {
   Vector3d out;
   out << x[2] * perp(q.head<2>()), cross(q.head<2>(), x.head<2>()) + 2 * j * x[2];
   return out;
 }
 
-// What ½ zᵀM z, z = M⁻¹Bη̇, adds on η, times sign.
+// Contribution of ½ zᵀM z, z = M⁻¹Bη̇, to η, times sign.
 void add_carried(const FlexInertia& f, const FlexibleInertia::Part& p, bool second, double sign, const Motion& m, const TangentWeights& w,
                  FlexibleScratch& scratch, Square K) {
   const Index n = m.eta.size();

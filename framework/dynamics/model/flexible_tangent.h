@@ -2,10 +2,10 @@
 
 #include "framework/dynamics/model/flexible.h"
 
-/// How the inertia and elasticity of a flexible body answer to its motion: docs/theory/tangent.md.
+/// How the inertia and elasticity of a flexible body depend on its motion: docs/theory/tangent.md.
 namespace pintle {
 
-/// x: of ẋ in internal states that follow the motion, x = base + w.x ẋ; 0: they are held.
+/// x: weight of ẋ for internal states that follow the motion, x = base + w.x ẋ; 0: they are held.
 struct TangentWeights {
   double q = 0, s = 0, a = 0, x = 0;
 };

@@ -58,7 +58,7 @@ void curve(const Spring& f, const ForceEffect&, M a, M b, WrenchTangent& out) {
   if (length == 0) return;
   const Vector2d along = d / length, across = perp(along);
   const double pull = f.k * (length - f.free_length) + f.c * along.dot(v);
-  const Vector2d slope = f.k * along + f.c * across.dot(v) / length * across;  // of the pull
+  const Vector2d slope = f.k * along + f.c * across.dot(v) / length * across;  // derivative of the pull
   oppose(along * slope.transpose() + pull / length * across * across.transpose(), out.pose);
   oppose(f.c * along * along.transpose(), out.rate);
 }
@@ -125,7 +125,7 @@ ForceEffect effect(const SizedForce& f, M a, M b, const double* laws) {
   e.input = e.on_a.head<2>().dot(a.v) + e.on_a[2] * a.w + e.on_b.head<2>().dot(b.v) + e.on_b[2] * b.w;
   return e;
 }
-// With its sizes held: what they answer to is said by the laws.
+// With its components held: the laws describe what these depend on.
 WrenchPattern pattern(const SizedForce& f) {
   if (f.way == SizedForce::follows) return {{{{}, {false, true}}}, false};
   return f.way == SizedForce::pull ? between(false) : constant;
@@ -139,7 +139,7 @@ void curve(const SizedForce& f, const ForceEffect& now, M a, M b, WrenchTangent&
   oppose(now.on_a.head<2>().dot(d) / (length * length) * across * across.transpose(), out.pose);
 }
 
-// Most remember nothing.
+// Most have no internal states.
 template <class Kind>
 std::span<const InternalState> states(const Kind&) {
   return {};

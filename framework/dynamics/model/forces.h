@@ -13,17 +13,17 @@
 
 namespace pintle {
 
-/// What a force element does at an instant: wrenches on its two markers and where the power goes.
-/// Promise: wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt.
+/// Effect of a force element at an instant: wrenches on its two markers, and the power balance.
+/// It satisfies wrench_a·ṗ_a + wrench_b·ṗ_b = input − dissipation − d(stored)/dt.
 struct ForceEffect {
   Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
   double stored = 0;                           ///< recoverable energy [J]
   double dissipation = 0;                      ///< power lost, never negative [W]
-  double input = 0;                            ///< power put in by the outside [W]
-  std::array<double, most_internal> x_rate{};  ///< of its internal states
+  double input = 0;                            ///< power supplied from outside [W]
+  std::array<double, most_internal> x_rate{};  ///< rates of its internal states
 };
 
-/// A force on b, in world axes, or turning with b's direction if `follows`. a is unused (ground).
+/// A force on b, in world axes or, if `follows`, turning with b's direction. a is unused (ground).
 struct PointForce {
   int a, b;      ///< markers
   TimeLaw x, y;  ///< [N]
@@ -42,7 +42,7 @@ struct Spring {
   double k, c, free_length;  ///< [N/m], [N s/m], [m]
   auto members() const { return std::tie(a, b, k, c, free_length); }
 };
-/// τ = k(φ − φ₀) + c φ̇, φ = φ_b − φ_a; turns b back.
+/// τ = k(φ − φ₀) + c φ̇, φ = φ_b − φ_a; restoring torque on b.
 struct TorsionSpring {
   int a, b;
   double k, c, free_angle;  ///< [N m/rad], [N m s/rad], [rad]
@@ -57,37 +57,37 @@ struct Maxwell {
   auto members() const { return std::tie(a, b, k, c); }
 };
 
-/// Forces whose sizes are laws of signals, System::laws[size …]: in world axes or turning with b's direction (x, y) on b, a couple on b
-/// and its opposite on a, a pull along the line from a to b, a couple that turns b back. [N] or [N m]
+/// Forces whose components are laws of signals, System::laws[size …]: on b in world axes or turning with b's direction (x, y), a couple on
+/// b and its opposite on a, a pull along the line from a to b, a couple that turns b back. [N] or [N m]
 struct SizedForce {
   enum Way { world, follows, couple, pull, restoring } way;
   int a, b;
-  int size, other = -1;  ///< of forces x and y; else the only one
+  int size, other = -1;  ///< for forces x and y; otherwise the only one
   auto members() const { return std::tie(way, a, b, size, other); }
 };
 
 using Force = std::variant<PointForce, Torque, Spring, TorsionSpring, Maxwell, SizedForce, BeltSpan>;
 
-/// Those of a force element, in order.
+/// The internal states of a force element, in order.
 std::span<const InternalState> internal_states(const Force&);
 
-/// Cannot fail. A spring of no length has no direction and gives no force.
-/// @param x  the internal states, if it has any   @param laws  values of the system's laws, if it is sized by any
+/// Cannot fail. A spring of zero length has no direction and exerts no force.
+/// @param x  the internal states, if it has any   @param laws  values of the system's laws, if it uses any
 ForceEffect evaluate(const Force&, const MarkerMotion& a, const MarkerMotion& b, double t, const double* x, const double* laws = nullptr);
 
 WrenchPattern wrench_pattern(const Force&);
-/// How the wrenches answer to the motion, internal states held. @param now  what the force does in this state
+/// How the wrenches depend on the motion, with internal states held. @param now  effect of the force in this state
 WrenchTangent wrench_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
-/// What a unit of its size, or of its other one, does.
+/// Wrenches of a unit of its size, or of its other size.
 struct UnitWrenches {
   Wrench on_a = Wrench::Zero(), on_b = Wrench::Zero();
 };
 UnitWrenches unit_wrenches(const SizedForce&, bool other, const MarkerMotion& a, const MarkerMotion& b);
 
-/// How wrenches and internal states answer to each other and to the motion.
+/// How wrenches and internal states depend on each other and on the motion.
 InternalTangent internal_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
-/// It asks for b's direction u.
+/// It needs b's direction u.
 inline bool turns_with_b(const Force& f) {
   const auto* point = std::get_if<PointForce>(&f);
   const auto* sized = std::get_if<SizedForce>(&f);

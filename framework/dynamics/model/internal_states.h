@@ -8,23 +8,23 @@
 #include "eigen_layout.h"
 #include "framework/dynamics/model/wrench_tangent.h"
 
-/// What a law remembers besides the motion: the deflection of a damper or of a bristle, the output of a controller. Its owner
-/// says how many numbers x it has and how fast they change, ẋ = g(p, ṗ, x, t); they are integrated with the motion, under an
-/// error scale of their own, and are no part of the ledger. Theory: docs/theory/internal_states.md.
+/// States of a law beyond the motion: the deflection of a damper or of a bristle, the output of a controller. Its owner defines the number
+/// of states x and their rates, ẋ = g(p, ṗ, x, t); they are integrated with the motion, with their own error scale, and are not part of the
+/// energy balance. Theory: docs/theory/internal_states.md.
 namespace pintle {
 
 inline constexpr int most_internal = 2;  ///< internal states of one owner
 
-/// An internal state as results name it.
+/// An internal state, named as in results.
 struct InternalState {
   const char *name, *unit;
-  double scale;  ///< what its errors are measured by; 0: as lengths are
+  double scale;  ///< scale of its errors; 0: that of lengths
 };
 
 using InternalVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_internal, 1>;
 using InternalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_internal, most_internal>;
 
-/// Derivatives of the wrenches in x, and of g in the poses, in their rates and in x.
+/// Derivatives of the wrenches with respect to x, and of g with respect to the poses, their rates and x.
 struct InternalTangent {
   using Column = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3 * most_ends, most_internal>;
   using Row = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_internal, 3 * most_ends>;
@@ -39,16 +39,16 @@ struct InternalTangent {
   Eigen::Index n() const { return g_x.rows(); }
 };
 
-/// The weight at which internal states have come to rest: ẋ = 0.
+/// The weight for internal states at rest: ẋ = 0.
 inline constexpr double internal_at_rest = std::numeric_limits<double>::infinity();
 
-/// (1/weight − g_x)⁻¹ r: the change of x in x = base + weight g where g changes by r. Nothing where g at rest does not depend on x.
+/// (1/weight − g_x)⁻¹ r: the change of x in x = base + weight g when g changes by r. Zero where g at rest does not depend on x.
 inline InternalVector internal_change(const InternalMatrix& g_x, double weight, const InternalVector& r) {
   const InternalMatrix inverse = (InternalMatrix::Identity(g_x.rows(), g_x.cols()) / weight - g_x).inverse();
   return inverse.allFinite() ? InternalVector(inverse * r) : InternalVector(InternalVector::Zero(g_x.rows()));
 }
 
-/// Adds what x = base + weight g(p, ṗ, x) makes of the wrenches: their tangent with x following the motion instead of held.
+/// Adds the effect of x = base + weight g(p, ṗ, x) on the wrenches: their tangent with x following the motion instead of being held.
 inline void condense(const InternalTangent& of, double weight, WrenchTangent& out) {
   for (Eigen::Index i = 0; i < of.g_pose.cols(); ++i) {
     out.pose.col(i) += of.wrench * internal_change(of.g_x, weight, of.g_pose.col(i));

@@ -5,10 +5,10 @@
 #include "eigen_layout.h"
 #include "framework/dynamics/model/joint_properties.h"
 
-/// What several joints have in common. `row` is the row of a part; a has the block L[0], b L[1], d = r_b − r_a.
+/// Parts shared by several joints. `row` is the row of a part; L[0] is the block of a, L[1] that of b, d = r_b − r_a.
 namespace pintle::joint_parts {
 
-// C = w·d with w fixed in a's directions, ẇ = w_a Zw;  Ċ = w·ḋ + w_a (Zw)·d
+// C = w·d with w fixed relative to a's direction, ẇ = w_a Zw;  Ċ = w·ḋ + w_a (Zw)·d
 inline void project(const MarkerMotion& a, const MarkerMotion& b, const Eigen::Vector2d& w, int row, ConstraintRows& out,
                     ConstraintRows::Block* L) {
   const Eigen::Vector2d d = b.r - a.r;
@@ -19,7 +19,7 @@ inline void project(const MarkerMotion& a, const MarkerMotion& b, const Eigen::V
 inline double project_kappa(const MarkerMotion& a, const MarkerMotion& b, const Eigen::Vector2d& w) {
   return 2 * a.w * perp(w).dot(b.v - a.v) - a.w * a.w * w.dot(b.r - a.r);
 }
-// Minus the Hessian of λ w·d. @param i, j  the places of a and b among the ends
+// Minus the Hessian of λ w·d. @param i, j  indices of a and b among the ends
 inline void project_tangent(const MarkerMotion& a, const MarkerMotion& b, const Eigen::Vector2d& w, double lambda, WrenchTangent& out,
                             int i = 0, int j = 1) {
   const Eigen::Vector2d along = lambda * perp(w);
@@ -48,7 +48,7 @@ inline double keep_length_kappa(const MarkerMotion& a, const MarkerMotion& b) {
   const double across = cross(direction(a, b), b.v - a.v), length = (b.r - a.r).norm();
   return length > 0 ? across * across / length : 0;
 }
-// The Hessian of |d| in d.
+// The Hessian of |d| with respect to d.
 inline Eigen::Matrix2d length_curvature(const MarkerMotion& a, const MarkerMotion& b) {
   const double length = (b.r - a.r).norm();
   if (length == 0) return Eigen::Matrix2d::Zero();

@@ -7,15 +7,15 @@
 
 namespace pintle {
 
-/// One joint's share of the constraints, written in the poses p_i = (r, angle) of its markers, so
-/// that no joint knows what a body is:
+/// One joint's share of the constraints, written in terms of the poses p_i = (r, angle) of its markers, so that joints are independent of
+/// the kinds of bodies:
 ///   C(p, t) = 0,   Σ L_i ṗ_i + Ct = 0,   Σ L_i p̈_i + kappa = 0,   L_i = ∂C/∂p_i.
 /// The first m rows are used. The joint acts on marker i with the wrench −L_iᵀλ.
 struct ConstraintRows {
-  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< L_i; one an end of the joint
+  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  ///< L_i; one per end of the joint
   Eigen::Vector3d C = Eigen::Vector3d::Zero();                 ///< violation [m or rad]
   Eigen::Vector3d Ct = Eigen::Vector3d::Zero();                ///< ∂C/∂t; zero unless driven [m/s or rad/s]
-  Eigen::Vector3d kappa = Eigen::Vector3d::Zero();             ///< what C̈ holds besides accelerations
+  Eigen::Vector3d kappa = Eigen::Vector3d::Zero();             ///< terms of C̈ without accelerations
 };
 
 /// The markers that a joint joins, in order.
@@ -29,16 +29,16 @@ struct JointEnds {
 /// How a joint is drawn at its marker b.
 enum class JointSymbol { none, pin, guide, pin_in_guide, rod };
 
-/// What all joints of a kind have in common.
+/// Properties common to all joints of a kind.
 struct JointProperties {
-  /// Its constraint equations, as messages call them. One called "angle" is in radians, others in metres.
+  /// Names of its constraint equations in messages. One called "angle" is in radians, others in metres.
   std::array<const char*, 3> equations = {};
-  bool force = true, couple = false;            ///< what of its reaction is written
+  bool force = true, couple = false;            ///< which parts of its reaction are written
   bool angles = true;                           ///< turning a marker can change its rows
-  std::array<bool, most_ends> directions = {};  ///< of which markers it reads the direction u
+  std::array<bool, most_ends> directions = {};  ///< the markers whose direction u it uses
   JointSymbol symbol = JointSymbol::none;
-  WrenchPattern curvature = {};  ///< of its wrenches at given λ
-  /// What −λ of each equation is called in results, ".force", where it is written beside the wrench. [N]
+  WrenchPattern curvature = {};  ///< of its wrenches for given λ
+  /// Name of −λ of each equation in results, ".force", where it is written besides the wrench. [N]
   std::array<const char*, 3> efforts = {};
   constexpr int rows() const { return (equations[0] != nullptr) + (equations[1] != nullptr) + (equations[2] != nullptr); }
 };

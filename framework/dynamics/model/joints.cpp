@@ -39,8 +39,8 @@ void keep_angle(M a, M b, double angle, int row, ConstraintRows& out, Block* L) 
 
 void keep_length_tangent(M a, M b, double lambda, WrenchTangent& out) { oppose(lambda * length_curvature(a, b), out.pose); }
 
-// The joints, each: `pose` gives C and L, `speed` Ct and kappa where they are not zero, `curve` the tangent of its wrenches
-// where it is not zero. m: all markers.
+// For each joint: `pose` gives C and L; `speed` gives Ct and kappa, where nonzero; `curve` gives the tangent of its wrenches, where
+// nonzero. m: all markers.
 
 void pose(const Revolute& j, const MarkerMotion* m, double, ConstraintRows& out, Block* L) { coincide(m[j.a], m[j.b], out, L); }
 
@@ -110,7 +110,7 @@ concept IsDriver = requires(const Kind& j) {
 
 namespace {
 
-// The markers are the members before the first that is no int.
+// The markers are the leading members of type int.
 template <class... Member>
 JointEnds leading_ints(const std::tuple<Member&...>& members) {
   static_assert((0 + ... + std::is_same_v<Member, const int>) <= most_ends);
@@ -154,7 +154,7 @@ bool is_angle_row(const Joint& j, int row) { return std::string_view(row_name(j,
 
 namespace {
 
-// What is asked at every evaluation: std::visit goes by a table of pointers where there are so many kinds, this by a switch.
+// Called at every evaluation: for so many kinds std::visit uses a table of pointers, this uses a switch.
 template <std::size_t kind = 0, class F>
 void of_its_kind(const Joint& joint, const F& f) {
   if constexpr (kind < std::variant_size_v<Joint>) {

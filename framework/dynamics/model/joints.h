@@ -16,7 +16,7 @@ struct Revolute {
   auto members() const { return std::tie(a, b); }
   static constexpr JointProperties properties{.equations = {"x", "y"}, .angles = false, .symbol = JointSymbol::pin};
 };
-/// Pin in slot: point b rides the line through a along a's direction u, n = Zu.
+/// Pin in slot: point b stays on the line through a along a's direction u, n = Zu.
 ///   C = n·(r_b − r_a)      λ: push of b on a along n [N]
 struct Slot {
   int a, b;
@@ -24,7 +24,7 @@ struct Slot {
   static constexpr JointProperties properties{
       .equations = {"across"}, .directions = {true}, .symbol = JointSymbol::pin_in_guide, .curvature = joint_curvature::along_a_line};
 };
-/// Guide: the slot, and b's direction keeps `angle` to a's.
+/// Guide: the slot, with b's direction at `angle` to a's.
 ///   C = [n·(r_b − r_a); φ_b − φ_a − angle]      λ: push along n [N], couple of b on a [N m]
 struct Prismatic {
   int a, b;
@@ -36,7 +36,7 @@ struct Prismatic {
                                               .symbol = JointSymbol::guide,
                                               .curvature = joint_curvature::along_a_line};
 };
-/// Clamp: the points coincide and b's direction keeps `angle` to a's.
+/// Clamp: the points coincide, with b's direction at `angle` to a's.
 ///   C = [r_b − r_a; φ_b − φ_a − angle]          λ in N, N, N m
 struct Weld {
   int a, b;
@@ -60,7 +60,7 @@ struct AngleDriver {
   auto members() const { return std::tie(a, b, law); }
   static constexpr JointProperties properties{.equations = {"angle"}, .force = false, .couple = true};
 };
-/// Imposed distance.   C = |r_b − r_a| − law(t)   −λ is the thrust that parts a and b [N]
+/// Imposed distance.   C = |r_b − r_a| − law(t)   −λ is the thrust that pushes a and b apart [N]
 struct DistanceDriver {
   int a, b;
   TimeLaw law;  ///< > 0 [m]
@@ -76,10 +76,11 @@ inline const JointProperties& properties_of(const Joint& joint) {
 }
 inline int rows(const Joint& j) { return properties_of(j).rows(); }
 
-/// The markers that a joint joins, in order: its ends. They are its first members, and its only ones of type int; a relation lists them.
+/// The markers that a joint connects, in order: its ends. They are its first members, and its only ones of type int; a relation stores them
+/// in a list.
 JointEnds ends_of(const Joint&);
 
-/// The law of a driver, nullptr of other joints.
+/// The law of a driver, nullptr for other joints.
 const TimeLaw* driver_law(const Joint&);
 TimeLaw* driver_law(Joint&);
 inline bool is_driver(const Joint& j) { return driver_law(j) != nullptr; }
@@ -87,13 +88,13 @@ inline bool is_driver(const Joint& j) { return driver_law(j) != nullptr; }
 inline const char* row_name(const Joint& j, int row) { return properties_of(j).equations[static_cast<std::size_t>(row)]; }
 bool is_angle_row(const Joint&, int row);
 
-/// Position level: C, and L of each end. Cannot fail; a distance of zero has no direction and gives x.
+/// Position level: C, and L of each end. Cannot fail; a distance of zero has no direction, and the x axis is used.
 /// @param markers  of the whole system
 void evaluate_pose(const Joint&, const MarkerMotion* markers, double t, ConstraintRows& out, ConstraintRows::Block* L);
-/// Velocity level: Ct and kappa, from markers whose speeds are known. After evaluate_pose.
+/// Velocity level: Ct and kappa, from markers with known speeds. After evaluate_pose.
 void evaluate_speed(const Joint&, const MarkerMotion* markers, double t, ConstraintRows& out);
 
-/// How the wrenches −L_iᵀλ answer to the poses, λ held. @param lambda  the joint's own multipliers, rows(joint) of them
+/// How the wrenches −L_iᵀλ depend on the poses, with λ held. @param lambda  the joint's own multipliers, rows(joint) of them
 WrenchTangent wrench_tangent(const Joint&, const MarkerMotion* markers, const double* lambda);
 
 }  // namespace pintle

@@ -13,7 +13,8 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Modal = Eigen::Map<const VectorXd>;
 
-/// Displacement per modal coordinate i where the body is, body axes; takes off x what the square of η_i was counted twice.
+/// Displacement per modal coordinate i in the current configuration, body axes; subtracts from x the part that the square of η_i counts
+/// twice.
 Vector2d shape_at(const Marker& marker, Index i, const Modal& eta, Vector2d& x) {
   Vector2d f = marker.shape.col(i);
   for (int k = 0; k < 2; ++k) {
@@ -57,7 +58,8 @@ void move_on_flexible(const System& system, const Marker& marker, const VectorXd
   m.w += marker.slope.dot(rate);
 }
 
-// In the order of the two above and of `pose` and `speed`, so that a gap is the same to the last bit by either way.
+// Same order of operations as in the two functions above and in `pose` and `speed`, so that a gap is identical to the last bit by either
+// way.
 MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {
   const Marker& m = system.markers[at(marker)];
   if (m.body == ground) return {m.x_BP, Vector2d::Zero(), 0, m.angle};

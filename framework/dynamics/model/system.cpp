@@ -82,7 +82,7 @@ void number(System& system, bool scheme_loses) {
   system.force_z.clear();
   system.joint_z.clear();
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
-    if (system.contacts[i].pair > 0) {  // of two profiles, the pairs of which share them
+    if (system.contacts[i].pair > 0) {  // for two profiles, their pairs share these
       system.contact_z.push_back(system.contact_z.back());
       continue;
     }

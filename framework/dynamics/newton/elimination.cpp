@@ -48,7 +48,7 @@ std::vector<int> rows_last(const System& system, const std::vector<std::vector<i
 }
 
 std::vector<int> body_by_body(const System& system, const std::vector<std::vector<int>>& joints, std::vector<Pattern::Place> meet) {
-  std::vector<std::vector<int>> bodies(system.joints.size());  // that each joint joins
+  std::vector<std::vector<int>> bodies(system.joints.size());  // connected by each joint
   for (std::size_t b = 0; b < joints.size(); ++b)
     for (int joint : joints[b]) bodies[at(joint)].push_back(static_cast<int>(b));
   for (const std::vector<int>& joined : bodies)
@@ -64,14 +64,14 @@ std::vector<int> body_by_body(const System& system, const std::vector<std::vecto
       for (int joint : joints[at(b)]) {
         int& left = waiting[at(joint)];
         const int height = system.row_begin[at(joint) + 1] - system.row_begin[at(joint)];
-        if (last_body && left > 0) --left;  // this one is there now
+        if (last_body && left > 0) --left;  // the present body has been reached
         if (left < 0 || (last_body ? left > 0 : height > room)) continue;
         append_rows(system, joint, order);
         room -= height;
         left = -1;
       }
   }
-  for (std::size_t k = 0; k < bodies.size(); ++k)  // joints of ground with ground
+  for (std::size_t k = 0; k < bodies.size(); ++k)  // joints between ground and ground
     if (bodies[k].empty()) append_rows(system, static_cast<int>(k), order);
   return order;
 }
@@ -84,7 +84,7 @@ std::vector<int> elimination_order(const System& system, const Equations& eq, co
   std::vector<Pattern::Place> meet;
   for (const Pattern::Place& p : J)
     if (body[at(p.row)] != body[at(p.column)]) meet.push_back({body[at(p.row)], body[at(p.column)]});
-  double pairs = 0;  // entries of S, in joints: a hub of many joints makes it dense
+  double pairs = 0;  // entries of S, counted in joints: a hub with many joints makes it dense
   for (const std::vector<int>& on : joints) pairs += static_cast<double>(on.size() * on.size());
   const bool hub = pairs > 20 * static_cast<double>(system.joints.size());
   return meet.empty() && !hub ? rows_last(system, joints) : body_by_body(system, joints, std::move(meet));

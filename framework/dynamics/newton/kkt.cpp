@@ -21,13 +21,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int retry = 16;  // factorizations with the shift before one is tried without
+constexpr int retry = 16;  // factorizations with the shift before trying one without it
 }  // namespace
 
 struct Kkt::Data {
   Index n, m, size;
-  std::vector<int> where_J, where_C, where_D;  ///< entry of each summand; of Cq two each, of the rows' diagonal
-  Pattern full_pattern;                        ///< of a dense one
+  std::vector<int> where_J, where_C, where_D;  ///< entry of each summand; two for each entry of Cq; of the rows' diagonal
+  Pattern full_pattern;                        ///< when dense
   std::vector<double> values, shifted_values;  ///< scaled, without and with the shift
   VectorXd T, E;                               ///< x, y = T ẑ, T = [D; R]; the shift is −E
   VectorXd z, work, unit, ones;
@@ -37,7 +37,7 @@ struct Kkt::Data {
   bool factored = false, shifted = false;
   int since = 0;
 
-  /// What the next factors and solutions follow from.
+  /// The data that determine the next factors and solutions.
   template <class A>
   void archive(A& x) {
     x(PINTLE_MEMBERS(factored, shifted, since, values, T, E));
@@ -71,11 +71,11 @@ struct Kkt::Data {
     for (const int row : eq.released) values[at(where_D[at(row)])] = -1;
   }
 
-  // D makes the largest entry of each row and column of D J D one, R that of each row of R Cq D.
+  // D scales the largest entry of each row and column of D J D to one, R that of each row of R Cq D.
   void equilibrate(const System& system) {
     T.setZero();
     each(
-        0, n, [&](int r) { return r < n; }, [&](Index r, Index c, double v) {  // rows of J lead
+        0, n, [&](int r) { return r < n; }, [&](Index r, Index c, double v) {  // the rows of J come first
           const double g = std::abs(v) * system.scale[r] * system.scale[c];
           T[r] = std::max(T[r], g);
           T[c] = std::max(T[c], g);
@@ -96,13 +96,13 @@ struct Kkt::Data {
   bool factor_as(const std::vector<double>& v, double least) {
     if (sparse) {
       if (sparse->factor(v) && sparse->pivot_ratio() > least) return true;
-      sparse->forget();  // pivots of a singular matrix serve no other
+      sparse->forget();  // do not reuse the pivots of a singular matrix
       return false;
     }
     if (size == 0) return true;
     dense->compute(full(v));
     const auto pivots = dense->matrixLU().diagonal().cwiseAbs();
-    return (pivots.array() > least * pivots.maxCoeff()).all();  // of NaN, too, false
+    return (pivots.array() > least * pivots.maxCoeff()).all();  // false for NaN too
   }
   void solve_in_place(VectorXd& v) {
     if (sparse)
@@ -151,7 +151,7 @@ Kkt::Kkt(const System& system, const Equations& eq, const Tangent& tangent) : da
   for (int i = 0; i < size; ++i) places.push_back({i, i});
   std::vector<int> where;
   Pattern pattern = compress(size, places, where);
-  constexpr int full_enough = 3;  // measured: KLU is faster from a dozen unknowns on, unless a third of them meet
+  constexpr int full_enough = 3;  // measured: KLU is faster from a dozen unknowns on, unless a third of the entries are nonzero
   if (size > dense_size || full_enough * pattern.entries() < size * size) {
     d.sparse.emplace(std::move(pattern), elimination_order(system, eq, J));
   } else {
@@ -165,7 +165,7 @@ Kkt::Kkt(const System& system, const Equations& eq, const Tangent& tangent) : da
   d.where_C.assign(J_end, where.end() - size);
   d.where_D.assign(where.end() - d.m, where.end());
   d.values.resize(at(d.pattern().entries()));
-  if (d.dense) d.shifted_values = d.values;  // sparse: at the first dependent rows
+  if (d.dense) d.shifted_values = d.values;  // sparse: allocated at the first dependent rows
   d.T.setZero(d.size);
   d.E.setZero(d.m);
   d.ones.setOnes(d.m);

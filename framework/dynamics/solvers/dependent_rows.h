@@ -8,18 +8,18 @@
 
 namespace pintle {
 
-/// What the solvers do where constraint rows are dependent: they factor with a small shift on the rows'
-/// diagonal and come to the solution without it by refinement. docs/theory/solvers.md.
+/// How the solvers treat dependent constraint rows: they factor with a small shift on the rows' diagonal and obtain the solution without it
+/// by iterative refinement. docs/theory/solvers.md.
 namespace dependent_rows {
 
-inline constexpr double lost = 1e-12;    ///< a pivot below this, over the entry it came from, is rounding
-inline constexpr double held_up = 1e-8;  ///< the same once shifted: the shift is all that holds it
-inline constexpr double shift = 1e-10;   ///< over the size of the matrix: far above rounding, far below what resists
+inline constexpr double lost = 1e-12;    ///< a pivot below this, relative to its original entry, is rounding
+inline constexpr double held_up = 1e-8;  ///< the same limit with the shift: below it only the shift makes the pivot nonzero
+inline constexpr double shift = 1e-10;   ///< relative to the size of the matrix: far above rounding, far below independent pivots
 
-/// Shift of each row: alike for all in the units given, so that refinement comes to multipliers of least
-/// norm in these; 1e-10 of the matrix, whose greatest and least diagonal entries meet in the middle.
+/// Shift of each row: equal for all rows in the given units, so that refinement gives multipliers of least norm in these units; 1e-10 of
+/// the matrix, taken as the geometric mean of its largest and smallest diagonal entries.
 /// @param diagonal  of the matrix on the multipliers, positive, in its own units
-/// @param unit      factor that brings a row to the units that norms are taken in
+/// @param unit      factor that converts a row to the units in which norms are taken
 inline void shifts(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& unit, Eigen::VectorXd& E) {
   if (diagonal.size() == 0) return;
   const auto like = diagonal.array() * unit.array().square();
@@ -27,18 +27,17 @@ inline void shifts(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& unit,
   E = (shift * size / unit.array().square()).min(1e3 * shift * diagonal.array()).max(1e-3 * shift * diagonal.array());
 }
 
-/// z of  K z = b  from a solver of the shifted matrix K − Σ ±E_i e_i e_iᵀ over the rows of multipliers, from
-/// `rows` on. What is consistent is met to rounding, by multipliers of least norm; what is not, is missed by
-/// least squares.
+/// Solves K z = b with a solver of the shifted matrix K − Σ ±E_i e_i e_iᵀ over the rows of multipliers, from `rows` on. Consistent rows are
+/// satisfied to rounding, with multipliers of least norm; inconsistent rows in the least-squares sense.
 class Refinement {
  public:
   Refinement() = default;
-  /// @param unit  brings residuals to like size
+  /// @param unit  scales residuals to similar size
   Refinement(const Eigen::VectorXd& unit, Eigen::Index rows)
       : unit_(unit), b_(unit), left_(unit), before_(unit), last_(unit), rows_(rows) {}
 
-  /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z; shifts_made: on the rows of multipliers, with
-  /// its sign, where the multipliers are found whole and their part that does no work is to be taken off. No allocation.
+  /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z; shifts_made: signed shifts of the rows of multipliers,
+  /// given where the multipliers themselves are computed and their part that does no work is to be removed. No allocation.
   template <class Solve, class SubtractProduct>
   void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product, const Eigen::VectorXd* shifts_made = nullptr) {
     constexpr int most = 8;
@@ -60,15 +59,16 @@ class Refinement {
       if (sweeps > 1 && (change <= rounding * size || !(change <= 0.5 * change_before))) break;
       change_before = change;
     }
-    // What cannot be met adds the same to the multipliers at each sweep: the last one's, taken back.
+    // The inconsistent part adds the same amount to the multipliers at each sweep: it is subtracted.
     const Eigen::Index m = z.size() - rows_;
     z.tail(m) -= sweeps * last_.tail(m);
     if (shifts_made) take_null_part(z, solve, *shifts_made);
     left_over_ = size > 0 ? left_.tail(m).cwiseProduct(unit_.tail(m)).lpNorm<Eigen::Infinity>() / size : 0;
   }
 
-  /// Rounding of residuals, over the shift, stays in the multipliers as a part that does no work: P z, P = (shifted⁻¹ shift)³ up to the
-  /// cube of the shift over what resists. The shift is as the inverse squares of the units, so what is left is of least norm.
+  /// The rounding of residuals, divided by the shift, leaves a part in the multipliers that does no work: P z, with P = (shifted⁻¹ shift)³
+  /// up to the cube of the shift over the independent pivots. The shift is proportional to the inverse squares of the units, so the
+  /// remainder has least norm.
   template <class Solve>
   void take_null_part(Eigen::VectorXd& z, Solve solve, const Eigen::VectorXd& shifts_made) {
     const Eigen::Index m = z.size() - rows_;
@@ -81,7 +81,7 @@ class Refinement {
     z.tail(m) -= last_.tail(m);
   }
 
-  /// Of the last solve: residual of the rows of multipliers over b, largest entries.
+  /// Of the last solve: residual of the rows of multipliers over b, by their largest entries.
   double left_over() const { return left_over_; }
 
  private:

@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-// Indices of `in` ordered by key, equal keys in the order they have.
+// Indices in `in` sorted by key; equal keys keep their order.
 template <class Key>
 std::vector<int> sorted(int keys, const std::vector<int>& in, Key key) {
   std::vector<int> begin(at(keys) + 1, 0), out(in.size());

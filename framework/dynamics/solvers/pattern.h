@@ -4,8 +4,8 @@
 
 namespace pintle {
 
-/// Where the entries of a square sparse matrix stand, column by column, rows ascending, as SuiteSparse
-/// reads them; found once, filled many times.
+/// Positions of the entries of a square sparse matrix, column by column with ascending rows, as in SuiteSparse; built once, filled many
+/// times.
 struct Pattern {
   struct Place {
     int row, column;
@@ -17,8 +17,8 @@ struct Pattern {
   int entries() const { return static_cast<int>(row.size()); }
 };
 
-/// The pattern of summands at `places`; where[i] ← the entry that summand i belongs to. A place may have
-/// several summands. Time and memory are linear in size and places.
+/// The pattern of summands at `places`; where[i] ← the entry that summand i belongs to. A place may have several summands. Time and memory
+/// are linear in the size and the number of places.
 /// @pre 0 ≤ row, column < size
 Pattern compress(int size, const std::vector<Pattern::Place>& places, std::vector<int>& where);
 

@@ -23,7 +23,7 @@ bool RankLdl::factor(int n, const double* S, double least) {
     for (Index i = k + 1; i < n; ++i)
       if (L_(i, i) > L_(largest, largest)) largest = i;
     if (!(L_(largest, largest) > least)) break;
-    if (largest != k) {  // both triangles stay filled, so whole rows and columns change places
+    if (largest != k) {  // both triangles are kept filled, so that whole rows and columns can be swapped
       std::swap(order_[static_cast<std::size_t>(k)], order_[static_cast<std::size_t>(largest)]);
       L_.row(k).head(n).swap(L_.row(largest).head(n));
       L_.col(k).head(n).swap(L_.col(largest).head(n));
@@ -31,7 +31,7 @@ bool RankLdl::factor(int n, const double* S, double least) {
     kept_ = L_(k, k);
     ++rank_;
     const Index rest = n - k - 1;
-    L_.row(k).segment(k + 1, rest) = L_.col(k).segment(k + 1, rest).transpose() / kept_;  // of Lᵀ
+    L_.row(k).segment(k + 1, rest) = L_.col(k).segment(k + 1, rest).transpose() / kept_;  // a row of Lᵀ
     L_.block(k + 1, k + 1, rest, rest).noalias() -= L_.col(k).segment(k + 1, rest) * L_.row(k).segment(k + 1, rest);
   }
   for (Index k = 0; k < rank_; ++k) L_.col(k).segment(k + 1, n - k - 1) = L_.row(k).segment(k + 1, n - k - 1).transpose();

@@ -8,9 +8,9 @@
 
 namespace pintle {
 
-/// S = L D Lᵀ of a dense symmetric positive semidefinite matrix, its diagonal scaled to 1. The largest pivot that is left
-/// is taken next, so the pivots tell the rank whatever the order of the rows: no rounding is divided by a pivot smaller than
-/// its own. docs/theory/solvers.md. Allocates only where n is larger than before.
+/// S = L D Lᵀ of a dense symmetric positive semidefinite matrix with its diagonal scaled to 1. The largest remaining pivot is always taken
+/// next, so the pivots show the rank for any order of the rows: no rounding error is divided by a pivot smaller than its own.
+/// docs/theory/solvers.md. Allocates only where n is larger than before.
 class RankLdl {
  public:
   /// @param S      n × n by rows, lower half
@@ -19,8 +19,8 @@ class RankLdl {
   bool factor(int n, const double* S, double least);
 
   int lost() const { return n_ - rank_; }
-  double kept() const { return kept_; }  ///< the smallest pivot that counts; 1 if there is none
-  /// Of x[rows[0]], … x[rows[n − 1]]: the solution of S x = x that is zero in the dependent rows. @pre consistent
+  double kept() const { return kept_; }  ///< the smallest nonzero pivot; 1 if there is none
+  /// Solves S x = x for x[rows[0]], … x[rows[n − 1]], with zeros in the dependent rows. @pre consistent
   void solve(const int* rows, double* x);
   /// out[rows[k]] ← the i-th null vector, i < lost().
   void null_vector(int i, const int* rows, double* out);

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// f(n), with n known to the compiler where it is small.
+// f(n), with small n as compile-time constants.
 template <class F>
 auto with_size(int n, F f) {
   using std::integral_constant;
@@ -37,8 +37,8 @@ auto with_size(int n, F f) {
   }
 }
 
-// S = L D Lᵀ in place, n × n by rows, lower half; D⁻¹ apart. @returns false if cancellation leaves `least` of a pivot, or
-// less; `smallest` is the least that it left of any
+// S = L D Lᵀ in place, n × n by rows, lower half; D⁻¹ separately. @returns false if cancellation reduces a pivot to `least` of its original
+// entry or less; `smallest` is the smallest such ratio
 template <class N>
 bool factor_ldl(N n, double* S, double* inverse, double least, double& smallest) {
   std::array<double, Schur::dense_rows> before, column;
@@ -77,7 +77,7 @@ struct Schur::Data {
   explicit Data(const VectorXd& row_scale)
       : unit(row_scale), shift(VectorXd::Zero(row_scale.size())), S_ii(shift), refine(row_scale, 0), given(shift) {}
 
-  /// r ← what of it dependent rows can meet, by least squares. @returns what that takes away over r, largest entries
+  /// Projects r onto what dependent rows can satisfy, by least squares. @returns the part removed, relative to r, by largest entries
   double make_consistent(VectorXd& r) {
     r.array() *= unit.array();
     const double size = largest(r);
@@ -88,7 +88,7 @@ struct Schur::Data {
     r.array() /= unit.array();
     return size > 0 ? left / size : 0;
   }
-  /// μ ← that of least norm
+  /// μ ← the multipliers of least norm
   void take_null_part(VectorXd& mu) {
     mu.array() /= unit.array();
     take_null_vectors(mu);
@@ -189,7 +189,7 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
     if (!begun[i]) zeros_.push_back(static_cast<int>(i));
 }
 
-// The parts that `places` connect. @returns which value each place is
+// Divides the rows into the parts that `places` connect. @returns the index of the value for each place
 std::vector<int> Schur::divide(const std::vector<Pattern::Place>& places) {
   std::vector<int> part(at(n_)), row_in_part(at(n_)), where;
   std::iota(part.begin(), part.end(), 0);
@@ -256,19 +256,19 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
   lost_ = 0;
   if (sparse()) least_ = data_->sparse->factor(values_);
   const bool independent = sparse() ? least_ > least : factor_dense(least);
-  // Of dependent rows rounding leaves so much of the quotient, of bodies 1e12 times as heavy as others more.
+  // For dependent rows, rounding leaves this much of the quotient, or more if bodies are 1e12 times as heavy as others.
   const double rounding = 4 * n_ * std::numeric_limits<double>::epsilon(), bound = least > dependent_rows::lost ? least : rounding;
   if (independent && (least_ > few || smallest_quotient() > bound)) {
     kept_ = least_;
     return true;
   }
   if (sparse()) return factor_shifted();
-  sum(B, B_eta, released);  // the factor took its place
+  sum(B, B_eta, released);  // the factor has overwritten S
   return factor_by_rank(independent ? bound : least);
 }
 
-// How little a combination of rows is, vᵀSv / Σ S_ii v_i², for the one that the smallest pivot stands for. Rounding may leave far more
-// of a pivot than of this, where its row is but a small part of the combination.
+// Relative size vᵀSv / Σ S_ii v_i² of the combination of rows that the smallest pivot belongs to. Where a row is only a small part of the
+// combination, rounding may affect its pivot far more than this quotient.
 double Schur::smallest_quotient() const {
   if (sparse()) return data_->sparse->smallest_quotient(values_);
   std::array<double, dense_rows> v, diagonal;
@@ -291,7 +291,7 @@ double Schur::smallest_quotient() const {
   return smallest;
 }
 
-// Independent rows serve for all, and null vectors bring what they give to the least norm.
+// A set of independent rows is solved for; the null vectors then convert the result to the least norm.
 bool Schur::factor_by_rank(double least) {
   Data& d = *data_;
   kept_ = 1;

@@ -1,7 +1,7 @@
 #include "framework/dynamics/solvers/sparse_ldl.h"
 
 #include <cholmod.h>
-extern "C" {  // it says nothing of C++
+extern "C" {  // this header has no C++ guards
 #include <ldl.h>
 }
 
@@ -33,7 +33,7 @@ cholmod_sparse upper(Pattern& p, double* values) {
   return A;
 }
 
-// Places of the upper triangle after row and column i have become new_index[i].
+// Places of the upper triangle after row and column i have been renumbered to new_index[i].
 std::vector<Pattern::Place> permuted(const std::vector<Pattern::Place>& places, const std::vector<int>& new_index) {
   std::vector<Pattern::Place> out;
   out.reserve(places.size());
@@ -44,7 +44,7 @@ std::vector<Pattern::Place> permuted(const std::vector<Pattern::Place>& places, 
   return out;
 }
 
-// CHOLMOD's choice of an order.
+// The order that CHOLMOD chooses.
 struct Order {
   explicit Order(int size) : n(size) {
     cholmod_start(&common);
@@ -219,13 +219,13 @@ double SparseLdl::nonzeros() const { return data_->lnz; }
 
 double SparseLdl::factor(const std::vector<double>& values) {
   Data& d = *data_;
-  double* v = const_cast<double*>(values.data());  // both only read
+  double* v = const_cast<double*>(values.data());  // both are only read
   if (!(d.blocks ? d.factor_blocks(v) : d.factor_thin(v))) return 0;
   double least = std::numeric_limits<double>::infinity();
   bool positive = true;
   d.each_pivot([&](int k, double pivot) {
     const double ratio = pivot / d.diagonal_entry(values.data(), k);
-    positive = positive && ratio > 0;  // NaN is not
+    positive = positive && ratio > 0;  // false for NaN
     least = std::min(least, ratio);
   });
   return positive ? least : 0;

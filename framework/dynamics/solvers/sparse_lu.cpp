@@ -14,8 +14,8 @@ namespace pintle {
 struct SparseLu::Data {
   Data(Pattern p, std::vector<int> order) : pattern(std::move(p)) {
     klu_defaults(&common);
-    common.btf = 0;     // with it, rows would be matched to columns by pattern alone
-    common.scale = -1;  // the caller's; nor is the pattern, which is ours, looked over each time
+    common.btf = 0;     // otherwise rows would be matched to columns by pattern alone
+    common.scale = -1;  // scaled by the caller; this also skips checking the pattern each time
     symbolic = klu_analyze_given(pattern.size(), pattern.column_begin.data(), pattern.row.data(), order.data(), order.data(), &common);
     if (!symbolic) throw std::bad_alloc();
     seed.resize(pattern.row.size());
@@ -41,7 +41,7 @@ struct SparseLu::Data {
 
   const double* diagonal() const { return static_cast<const double*>(numeric->Udiag); }
 
-  // Multipliers, and with them entries, can only have grown where a pivot has shrunk.
+  // Multipliers, and with them entries, can only have grown where a pivot has become smaller.
   bool shrunk() const {
     constexpr double much = 0.1;
     bool any = false;
@@ -49,7 +49,7 @@ struct SparseLu::Data {
     return any;
   }
 
-  // Largest entry of a column of A over that of U, the worst column: small where pivots let entries grow.
+  // Largest entry of a column of A over that of U, for the worst column: small where the pivots let entries grow.
   double measure(const std::vector<double>& v) {
     klu_rgrowth(pattern.column_begin.data(), pattern.row.data(), const_cast<double*>(v.data()), symbolic, numeric, &common);
     return common.rgrowth;
@@ -69,8 +69,8 @@ struct SparseLu::Data {
   klu_common common;
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
-  std::vector<double> seed;    ///< the matrix that gave the pivots
-  std::vector<double> pivots;  ///< U_ii of it
+  std::vector<double> seed;    ///< the matrix from which the pivots were chosen
+  std::vector<double> pivots;  ///< its U_ii
   double growth = 1;
   long pivotings = 0;
 };

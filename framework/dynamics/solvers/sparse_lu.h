@@ -10,9 +10,8 @@ namespace pintle {
 class Writer;
 class Reader;
 
-/// A = L U of a sparse matrix without symmetry, by KLU: pivots chosen at the first factorization, on the
-/// diagonal where that is not small, and kept while they stay good, so that the next costs numbers only and
-/// allocates nothing.
+/// A = L U of a sparse unsymmetric matrix, by KLU. Pivots are chosen at the first factorization, on the diagonal where that is not small,
+/// and kept while they remain good, so that later factorizations only recompute numbers and allocate nothing.
 class SparseLu {
  public:
   /// @param order  order[k]: the unknown that is eliminated k-th
@@ -20,12 +19,12 @@ class SparseLu {
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;
 
-  /// @param values  one an entry of the pattern, of like size
+  /// @param values  one per entry of the pattern, of similar size
   /// @returns false if a pivot is zero
   bool factor(const std::vector<double>& values);
   /// Smallest over largest pivot.
   double pivot_ratio() const;
-  /// The next factorization chooses pivots.
+  /// Makes the next factorization choose pivots again.
   void forget();
   /// x ← A⁻¹ x. @pre factor returned true
   void solve(double* x);
@@ -34,8 +33,8 @@ class SparseLu {
   long nonzeros() const;   ///< of L and U; 0 before the first factorization
   long pivotings() const;  ///< how often pivots were chosen
 
-  /// What the choice of pivots followed from; after `load` with the values factored last all goes on bit for
-  /// bit. A stream that holds something else is left failed, and nothing factored.
+  /// The data from which the pivots were chosen; after `load` with the values factored last, results continue bit for bit. A stream that
+  /// holds something else is left in the failed state, and nothing is factored.
   void save(Writer&) const;
   void load(Reader&, const std::vector<double>& values);
 

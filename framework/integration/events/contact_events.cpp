@@ -14,7 +14,7 @@ namespace pintle {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double part_pressed = 1e-9;  // of the greatest force of rigid contacts: less is none
+constexpr double part_pressed = 1e-9;  // relative to the greatest force of rigid contacts: a smaller force counts as none
 
 }  // namespace
 
@@ -31,13 +31,13 @@ std::string ContactEvents::name(int event) const {
   return "contact \"" + system_.contact_names[at(contact)] + "\"";
 }
 
-// It would begin where the contact of a neighbour goes on.
+// Its onset would be where the contact of a neighbouring pair continues.
 bool ContactEvents::continues_another(int contact) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   return pair.profiles && std::ranges::any_of(pair.beyond, [&](int other) { return other >= 0 && log_.touching(other); });
 }
 
-// A contact that is open waits for its onset, a closed one for its loss; a massless link for neither.
+// An open contact waits for its onset, a closed one for its loss; a massless link for neither.
 WatchedGuard ContactEvents::watch(int event) const {
   const int leaves = leaving(event), contact = leaves < 0 ? event : leaves;
   const ContactPair& pair = system_.contacts[at(contact)];
@@ -61,8 +61,8 @@ Guard ContactEvents::guard(int event, const State& state) const {
   return is_rigid(system_.contacts[at(event)]) ? pressed(event, state) : gap_of(system_, event, state);
 }
 
-// How much a closed rigid contact is pressed, of the most that any was (in N as long as none was), and a little more; below 0 once its
-// forces have let it open.
+// Normal force of a closed rigid contact, relative to the largest so far (in N while there was none), plus a small amount; negative once
+// its forces have let it open.
 Guard ContactEvents::pressed(int contact, const State& state) const {
   if (!(state.impact_rate[at(contact)] > 0)) return {-1};
   const double load = state.friction[at(contact)].load;
@@ -78,7 +78,7 @@ Guard ContactEvents::guard(int event, const State& state, const Equations& eq) c
 
 namespace {
 
-// When a guard that is not positive at `begin` becomes so before `end`, and a little more.
+// When a guard that is not positive at `begin` becomes positive before `end`, plus a small margin.
 template <class F>
 std::optional<double> rise(const F& guard, double begin, const Guard& from, double end, const Guard& to) {
   const double fine = 1e-9 * (end - begin);
@@ -95,8 +95,8 @@ std::optional<double> rise(const F& guard, double begin, const Guard& from, doub
 
 }  // namespace
 
-// A long step may take a body through a wall, or from beside a piece onto it. So parts of the step are looked at: where in one the
-// overlap or the margin becomes positive, the other may be.
+// A long step may move a body through a wall, or from beside a piece onto it. So parts of the step are examined: where the overlap or the
+// margin becomes positive, the other may be positive too.
 std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   if (leaving(event) < 0 && log_.touching(event) && is_rigid(system_.contacts[at(event)]) && motion.knows_held_forces()) {
     const auto left = [&](double t) { return pressed(event, motion.at(t)).value; };
@@ -127,7 +127,7 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
   return std::nullopt;
 }
 
-// Until what the contact stores at the depth that is left is, of the impact's energy, a ten-thousandth of the tolerance.
+// True once the energy that the contact would store at the remaining depth is at most 1e-4 times the tolerance of the impact's energy.
 bool ContactEvents::met(int event, const Guard& gap) const {
   const double enough = 1e-15 * system_.length, part = std::sqrt(1e-4 * tolerance_), depth = std::abs(gap.value);
   if (leaving(event) >= 0) return depth <= watch(event).zero;
@@ -135,7 +135,7 @@ bool ContactEvents::met(int event, const Guard& gap) const {
   return depth <= enough || gap.rate == 0 || speed_to_reach(event, depth) <= part * std::abs(gap.rate);
 }
 
-// A start inside the wall has no approach speed. It gets that of the impact which would have come this deep.
+// A start with overlap has no approach speed. It gets that of the impact that would reach this depth.
 void ContactEvents::start(Step& step) {
   if (time_stepping_) return;
   std::vector<int> rigid;
@@ -151,14 +151,14 @@ void ContactEvents::start(Step& step) {
   if (!rigid.empty()) strike(rigid, step);
 }
 
-// Of the first step too, what is pressed is measured by a force.
+// Provides the reference force for the first step too.
 void ContactEvents::begin_step(const State& from) {
   for (int c = 0; c < contacts(); ++c)
     if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping_)
       most_pressed_ = std::max(most_pressed_, std::abs(from.friction[at(c)].load));
 }
 
-// A stay lasts as long as each step brings an impulse.
+// A contact lasts as long as each step has an impulse.
 void ContactEvents::write_down(Step& step) {
   const State& state = step.to.state;
   for (int c = 0; c < contacts(); ++c) {
@@ -172,10 +172,10 @@ void ContactEvents::write_down(Step& step) {
 
 namespace {
 
-// The largest rate in a step: beside that of its end, the one where the cubic through depths and rates of both ends has its summit of rate.
+// The largest rate in a step: that at its end, or the maximum rate of the cubic through depths and rates at both ends.
 double fastest(const System& system, int contact, const Step& step, const Guard& from, const Guard& to, const DenseOutput& motion) {
   const double a = step.h * from.rate, b = step.h * to.rate, d = to.value - from.value;
-  const double c3 = a + b - 2 * d, summit = (2 * a + b - 3 * d) / (3 * c3);  // d0 + a x + c2 x² + c3 x³
+  const double c3 = a + b - 2 * d, summit = (2 * a + b - 3 * d) / (3 * c3);  // of d0 + a x + c2 x² + c3 x³
   if (!(c3 < 0 && summit > 0 && summit < 1)) return to.rate;
   return std::max(to.rate, gap_of(system, contact, motion.at(step.from.state.t + summit * step.h)).rate);
 }
@@ -201,7 +201,7 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   const ContactPair& pair = system_.contacts[at(event)];
   if (is_rigid(pair)) return onset ? strike({event}, step) : part(event, step);
   const Guard now = gap_of(system_, event, step.to.state);
-  const bool inside = onset && pair.profiles && now.value > watch(event).zero;  // it comes in from the side
+  const bool inside = onset && pair.profiles && now.value > watch(event).zero;  // it enters from the side
   if (onset)
     begin(event, step, inside ? std::max(now.rate, latched_at(system_, pair, now.value)) : now.rate);
   else
@@ -209,7 +209,7 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   const bool straightens = !onset && has_bristles(pair);
   return {.change = inside || straightens || begins_with_jump(pair.normal) ? EventOutcome::Change::jump : EventOutcome::Change::forces,
           .first_step = onset ? onset_step(event, gap.rate, step.to.state.t) : infinite,
-          .of_every_method = pair.profiles};  // which a long implicit step would pass
+          .of_every_method = pair.profiles};  // otherwise a long implicit step would skip it
 }
 
 // Gaps so nearly closed that they close at this instant.
@@ -220,7 +220,7 @@ bool ContactEvents::touches(int contact, const State& state) const {
   return now.value > -std::max(1e-9 * fine_length(pair, system_.length), pair.slack) - pair.slack;
 }
 
-// What touches at the same instant is struck together.
+// All contacts that touch at the same instant are treated in one impact.
 EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
   if (!eq_) eq_ = std::make_unique<Equations>(system_);
   State& state = step.to.state;
@@ -243,7 +243,7 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
   return {.change = EventOutcome::Change::jump};
 }
 
-// Its forces are decided again, and it is over once they have let it open.
+// Its forces are determined again; the contact ends once they have let it open.
 EventOutcome ContactEvents::part(int contact, Step& step) {
   State& state = step.to.state;
   if (state.impact_rate[at(contact)] > 0) {
@@ -256,8 +256,8 @@ EventOutcome ContactEvents::part(int contact, Step& step) {
 
 namespace {
 
-// The pair that lies beyond the end; where that would be left at once, as where an arc comes to the end of a line, the one beyond
-// another end that is entered there.
+// The pair beyond the end. Where that pair would be left immediately, as where an arc meets the end of a line, the pair beyond another end
+// that is entered there.
 int next(const System& system, const ImpactLog& log, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
   const int side = margin_of(system, contact, state).side, to = side < 0 ? -1 : pair.beyond[at(side)];
@@ -275,7 +275,7 @@ int next(const System& system, const ImpactLog& log, int contact, const State& s
 
 EventOutcome ContactEvents::leave(int contact, Step& step) {
   const int to = next(system_, log_, contact, step.to.state);
-  if (to < 0 || log_.touching(to)) {  // what it has stored is lost with it
+  if (to < 0 || log_.touching(to)) {  // its stored energy is lost
     const ContactPair& pair = system_.contacts[at(contact)];
     State& state = step.to.state;
     const Guard now = gap_of(system_, contact, state);
@@ -308,7 +308,7 @@ void ContactEvents::end(int contact, Step& step) {
   straighten_bristles(system_, contact, state);
 }
 
-// When the depth was zero, to first order, if that was in the step, or would be as soon after its end.
+// The time at which the depth was zero, to first order, if that was in the step or would be as soon after its end.
 double ContactEvents::moment(const Step& step, const Guard& gap) const {
   const double t = step.to.state.t;
   return !(onset_cut_ > 0) && std::abs(gap.value) < std::abs(gap.rate) * step.h ? t - gap.value / gap.rate : t;
@@ -319,9 +319,9 @@ double ContactEvents::speed_to_reach(int contact, double depth) const {
   return pintle::speed_to_reach(pair.normal, lightness(system_, pair), depth);
 }
 
-// The first explicit step of an impact. Its force begins as (1 + χ)(vt)ⁿ, which no series of whole powers follows and no embedded
-// error sees in full: of the (1 + χ) ½ v (hv/δ)ⁿ⁺¹ by which it changes the speed v in the step h, δ the depth that v can reach, a
-// pair misses some thousandth, and that is to be the tolerance [s].
+// The first explicit step of an impact [s]. Its force starts as (1 + χ)(vt)ⁿ, which has no expansion in whole powers, so no embedded error
+// estimate sees the whole error. In the step h the force changes the speed v by (1 + χ) ½ v (hv/δ)ⁿ⁺¹, where δ is the depth that v can
+// reach; a pair makes an error of about a thousandth of this, which is set equal to the tolerance.
 double ContactEvents::onset_step(int contact, double v, double t) const {
   constexpr double missed = 1e-3, clock = 1e-14;
   if (!(v > 0)) return infinite;

@@ -6,9 +6,9 @@
 
 namespace pintle {
 
-/// Onset and loss of contact: the guard is the overlap. Onset latches the approach speed in State::impact_rate, loss clears it.
-/// Between profiles a contact that comes to the end of its pieces goes on, with the speed latched, at the pair that lies beyond, or
-/// ends: one more event for each pair. Of a rigid contact onset is an impact, and its loss is where its normal force comes to 0.
+/// Onset and loss of contact: the guard is the overlap. Onset latches the approach speed in State::impact_rate, loss clears it. Between
+/// profiles, a contact that reaches the end of its pieces continues, with the latched speed, at the pair beyond, or ends: one more event
+/// for each pair. For a rigid contact onset is an impact, and loss is where its normal force reaches 0.
 class ContactEvents final : public EventGroup {
  public:
   ContactEvents(const System&, const Scheme&);
@@ -33,7 +33,7 @@ class ContactEvents final : public EventGroup {
 
  private:
   int contacts() const { return static_cast<int>(system_.contacts.size()); }
-  /// Of an event beyond those of onset and loss: the pair that leaves its pieces; −1 of the others.
+  /// The pair that leaves its pieces, for the events after those of onset and loss; −1 for others.
   int leaving(int event) const { return event < contacts() ? -1 : leaving_[static_cast<std::size_t>(event - contacts())]; }
   bool continues_another(int contact) const;
   EventOutcome leave(int contact, Step&);
@@ -50,11 +50,11 @@ class ContactEvents final : public EventGroup {
 
   const System& system_;
   double tolerance_, onset_cut_;
-  bool time_stepping_;        ///< impacts are the scheme's: they are written down, but no events
-  std::vector<int> leaving_;  ///< pairs whose pieces end somewhere
+  bool time_stepping_;        ///< the scheme handles impacts: they are logged, but are not events
+  std::vector<int> leaving_;  ///< pairs with pieces of finite extent
   ImpactLog log_;
   double most_pressed_ = 0;        ///< of the rigid contacts so far [N]
-  std::unique_ptr<Equations> eq_;  ///< from the first impact of rigid bodies on
+  std::unique_ptr<Equations> eq_;  ///< created at the first impact of rigid bodies
 };
 
 }  // namespace pintle

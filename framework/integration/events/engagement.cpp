@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double meets = 1e-6;      // of the mechanism's length, or radians: so far apart points of a joint may be that is engaged
-constexpr double too_far_in = 0.1;  // of a contact's size: so deep it may be that is engaged
-constexpr double agrees = 1e-9;     // of the fastest speed
+constexpr double meets = 1e-6;      // of the mechanism's length, or radians: largest gap of a joint at engagement
+constexpr double too_far_in = 0.1;  // relative to a contact's size: largest depth at engagement
+constexpr double agrees = 1e-9;     // relative to the fastest speed
 
 double& released(const System& system, int k, VectorXd& y) { return y[system.switch_begin() + 2 * k]; }
 double& offset(const System& system, int k, VectorXd& y) { return y[system.switch_begin() + 2 * k + 1]; }
@@ -42,7 +42,7 @@ void evaluate_forces(const System& system, const State& state, Equations& eq) {
   apply_forces(system, state, eq);
 }
 
-// What it remembers of before is forgotten.
+// Discards its memory of the motion before.
 void release(const System& system, const Switch& s, State& state) {
   if (s.of == Switch::contact)
     for (int c = s.index; c < s.index + system.contacts[at(s.index)].pairs; ++c) {
@@ -57,7 +57,7 @@ void release(const System& system, const Switch& s, State& state) {
   }
 }
 
-// It begins with its own states at rest.
+// Its own states start at rest.
 void rest_states(const System& system, int force, State& state) {
   const Index n = static_cast<Index>(internal_states(system.forces[at(force)]).size());
   if (n == 0) return;
@@ -67,7 +67,7 @@ void rest_states(const System& system, int force, State& state) {
   state.y.segment(begin, n) = at_rest.segment(begin, n);
 }
 
-// Takes what the joint finds for the angle or length that it holds. @returns why it cannot be engaged
+// Sets the offset of the angle or length that the joint holds to its present value. @returns why it cannot be engaged
 std::string latch(const System& system, int k, State& state, Equations& eq) {
   const Switch& s = system.switches[at(k)];
   const Joint& joint = system.joints[at(s.index)];
@@ -84,7 +84,7 @@ std::string latch(const System& system, int k, State& state, Equations& eq) {
   return "";
 }
 
-// Teeth take the gap in which they are. How far they have slipped is what the depths of their two flanks, in the gap of the start, differ by.
+// Teeth mesh in their present gap. Their slip is the difference of the depths of their two flanks in the gap of the start.
 void mesh(const System& system, const SwitchOver& one, State& state) {
   const int first = system.switches[at(one.at)].index;
   const std::optional<Flank>& flank = system.contacts[at(first)].flank;
@@ -114,7 +114,7 @@ std::string too_deep(const System& system, const SwitchOver& one, const State& s
   return "";
 }
 
-// Speeds onto what the joints allow; books what that takes away, joint by joint, and what drivers put in.
+// Projects the speeds onto the joints; records the energy this removes, joint by joint, and the work of drivers.
 void share_impulse(const System& system, std::span<const SwitchOver> changes, State& state, Equations& eq, Engagement& out) {
   VectorXd impulse = eq.Cdot;
   eq.schur.solve(impulse);
@@ -168,7 +168,7 @@ Engagement switch_over(const System& system, std::span<const SwitchOver> asked, 
 
   evaluate_forces(system, state, eq);
   for (const SwitchOver& one : changes) lost(system, one.at, state.y) += stored(system, system.switches[at(one.at)], eq);
-  int engaged = -1;  // the last of the joints that are
+  int engaged = -1;  // last of the engaged joints
   for (const SwitchOver& one : changes) {
     const Switch& s = system.switches[at(one.at)];
     released(system, one.at, state.y) = one.engage ? 0 : 1;

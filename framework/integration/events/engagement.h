@@ -5,25 +5,26 @@
 
 #include "framework/dynamics/equations/equations.h"
 
-/// Joints, drivers, forces and contacts that are taken out of the mechanism and put back. Theory: docs/theory/events.md.
+/// Releasing and engaging joints, drivers, forces and contacts. Theory: docs/theory/events.md.
 namespace pintle {
 
 struct SwitchOver {
   int at;            ///< index into System::switches
   bool engage;       ///< false: release
-  double pitch = 0;  ///< of teeth with backlash, from one to the next along their pitch circles; 0: not known [m]
+  double pitch = 0;  ///< of teeth with backlash, along their pitch circles; 0: unknown [m]
 };
 
-/// What a change of the mechanism has done, or why it cannot be.
+/// Result of a change of the mechanism, or why it is impossible.
 struct Engagement {
-  std::string trouble = {};   ///< empty: it is done. Else the state is of no use
-  bool changed = false;       ///< something has been released or engaged that was not so before
-  double lost = 0, work = 0;  ///< to the engaging of joints, and what drivers put in as they were engaged [J]
+  std::string trouble = {};   ///< empty: done. Otherwise the state is invalid
+  bool changed = false;       ///< something changed: it was not already released or engaged
+  double lost = 0, work = 0;  ///< energy lost in engaging joints, and work of drivers as they were engaged [J]
 };
 
-/// Releases and engages elements, all at one instant. Places stay; speeds go, by the shortest way in the metric of M, to what the joints that
-/// are engaged allow: an impact without restitution. What is lost is booked, and what forces and contacts held in store. A joint's angle, and
-/// what a driver imposes, go on from what they are; a joint whose points must meet is engaged only where they do.
+/// Releases and engages elements at one instant. Positions are unchanged; speeds are projected, in the metric of M, onto what the engaged
+/// joints allow: an impact without restitution. The energy lost is recorded, including that stored in released forces and contacts. A
+/// joint's angle, and what a driver imposes, continue from their present values; a joint whose points must coincide is engaged only where
+/// they do.
 Engagement switch_over(const System&, std::span<const SwitchOver>, State&, Equations&);
 
 }  // namespace pintle

@@ -13,7 +13,7 @@ namespace pintle {
 namespace {
 
 double sign_of(Direction d) { return d == Direction::falling ? -1 : 1; }
-/// The event is where it becomes positive.
+/// Signed so that the event is where it becomes positive.
 Guard turned(const Guard& g, const WatchedGuard& w) { return {sign_of(w.direction) * g.value, sign_of(w.direction) * g.rate}; }
 
 }  // namespace
@@ -33,7 +33,7 @@ void Events::start(Step& step) {
   for (auto& g : groups_) g->start(step);
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard w = ask(k);
-    const bool left_undecided = w.at_once && group(k).order() > 0;  // by a start that found no forces: it acts at once, and says so
+    const bool left_undecided = w.at_once && group(k).order() > 0;  // a start found no forces: it acts at once and reports this
     spent_[k] = !left_undecided && w.direction != Direction::none && turned(guard(k, step.to.state), w).value > 0;
   }
 }
@@ -51,8 +51,8 @@ void Events::begin_step(const State& from) {
 }
 
 double Events::kink_ahead(double wish) const {
-  constexpr double little = 1e-2;  // of the step wished for: so near, the step may as well pass
-  constexpr double past = 1.02;    // a contact opens faster and faster
+  constexpr double little = 1e-2;  // relative to the desired step: when it is this near, the step may pass it
+  constexpr double past = 1.02;    // margin, since a contact opens faster and faster
   double ahead = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard& w = watched_[k];
@@ -70,7 +70,7 @@ void Events::look_at_end(const Step& step, const Equations* evaluated) {
     to_[k] = evaluated ? group(k).guard(places_[k].event, step.to.state, *evaluated) : guard(k, step.to.state);
 }
 
-// Of the events that a step may pass, the one it is farthest past, where that counts; else the last.
+// Of the events that a step may pass, the one passed farthest, where that counts; otherwise the last.
 std::optional<EventInStep> Events::passed_by_end(const Step& step) const {
   std::optional<EventInStep> out;
   double farthest = 0;
@@ -85,7 +85,7 @@ std::optional<EventInStep> Events::passed_by_end(const Step& step) const {
   return out;
 }
 
-// When an event comes in the step, by dense output; nothing if it does not.
+// Time of an event in the step, by dense output; nothing if it does not occur.
 std::optional<double> Events::passage(std::size_t at, const Step& step, const DenseOutput& motion) const {
   const WatchedGuard& w = watched_[at];
   const double t0 = step.from.state.t, t1 = step.to.state.t;
@@ -94,7 +94,7 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   if (w.level && from.value > w.zero) return t0;
   double begin = t0, end = t1;
   const bool spent = spent_[at];
-  if (spent && from.rate > 0) return std::nullopt;  // it is the passage of before
+  if (spent && from.rate > 0) return std::nullopt;  // this is the previous passage
   if (!(to.value > 0)) {
     std::optional<double> between;
     if (from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
@@ -103,15 +103,15 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
     if (!between && (spent || !(from.value > w.zero))) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
-  } else if (spent || from.value < 0) {  // it may have been above zero before, and below again
+  } else if (spent || from.value < 0) {  // it may have been positive before, and negative again
     end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
   }
-  if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and going away: search from where it has gone away
+  if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and decreasing: start the search after it has decreased
     const double away = std::min(from.value, spent ? -w.zero : 0.0);
     for (double part = 0.5; part > 1e-9 && begin == t0; part /= 2)
       if (const double t = t0 + part * (end - t0); along(t).value < away) begin = t;
-    if (begin == t0 && (spent || from.value >= 0)) {           // it never has
-      if (spent && w.at_once && from.rate < 0 && to.rate > 0)  // it comes back from where nothing shows: again, where it turns
+    if (begin == t0 && (spent || from.value >= 0)) {           // it has not
+      if (spent && w.at_once && from.rate < 0 && to.rate > 0)  // no decrease was visible, but it returns: the event is at its minimum
         return crossing([&](double t) { return Guard{along(t).rate}; }, t0, t1, 1e-9 * step.h);
       if (spent || !w.at_once || here_ > 4) return std::nullopt;
       end = t0;
@@ -119,14 +119,14 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   } else if (from.value >= 0) {
     end = t0;
   }
-  constexpr double fine = 1e-9;  // finer than dense output is good for
+  constexpr double fine = 1e-9;  // below the accuracy of dense output
   return end > begin ? crossing(along, begin, end, fine * step.h) : t0;
 }
 
 std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& motion, const Equations* evaluated) {
   look_at_end(step, evaluated);
   const std::optional<EventInStep> at_end = passed_by_end(step);
-  if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->watch.overshoot) return at_end;  // too far past
+  if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->watch.overshoot) return at_end;  // passed too far
   std::optional<EventInStep> out;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard& w = watched_[k];
@@ -156,10 +156,10 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
     step.h = 0;
     return Ending::there;
   }
-  constexpr double last_digits = 4.5e-16;  // two of the clock's: between them zero cannot be met more nearly
+  constexpr double last_digits = 4.5e-16;  // two last digits of the time: the zero cannot be located more accurately
   double t_before = t0, low = t0, high = turned(to_[event.at], event.watch).value > 0 ? t1 : std::numeric_limits<double>::infinity();
   Guard now = from_[event.at];
-  constexpr double dense_part = 1e-9;              // of the step: as well as dense output is searched
+  constexpr double dense_part = 1e-9;              // relative to the step: accuracy of the search on dense output
   const int most = std::isnan(now.rate) ? 12 : 6;  // by secants, or by Newton's method
   for (int i = 0; i < most && t > t0; ++i) {
     if (!stepper.attempt(t - t0, norm, step, eq)) {
@@ -170,7 +170,7 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
     if (group(event.at).met(places_[event.at].event, now)) {
       if (!event.watch.level || norm.of(step, stepper.traits().follows_impacts) <= 1) return Ending::there;
       step.h = h;
-      return Ending::missed;  // the longer step had not seen what this one sees
+      return Ending::missed;  // the longer step missed what this step resolves
     }
     (turned(now, event.watch).value > 0 ? high : low) = t;
     const double rate = std::isnan(now.rate) ? (now.value - before.value) / (t - t_before) : now.rate;
@@ -189,7 +189,7 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
   return Ending::missed;
 }
 
-// Where a guard jumps, between two digits of the clock.
+// Locates a jump of a guard between two adjacent values of the time.
 Events::Ending Events::bisect(const EventInStep& event, double low, double high, Stepper& stepper, const ErrorNorm& norm, Step& step,
                               Equations& eq) {
   const double t0 = step.from.state.t;
@@ -210,7 +210,7 @@ void Events::follow(Step& step, const DenseOutput& motion) {
 }
 
 bool Events::count(const Step& step, const std::optional<EventInStep>& event, const DenseOutput& motion, double wish) {
-  constexpr double hardly = 1e-6;  // of a step
+  constexpr double hardly = 1e-6;  // relative to a step
   const int most = 100 + 2 * static_cast<int>(places_.size());
   const bool crowds = event && step.h <= hardly * wish && (step.h == 0 || !group(event->at).remedy().empty());
   if (event) still_ = group(event->at).hardly_left(places_[event->at].event, step, motion);
@@ -241,7 +241,7 @@ EventOutcome Events::act(const EventInStep& event, Step& step, double wish) {
   Wishes& wishes = wishes_[places_[event.at].group];
   (event.watch.direction == Direction::rising ? wishes.of_rising : wishes.of_falling) = wish;
   const EventOutcome out = group(event.at).act(places_[event.at].event, step, to_[event.at]);
-  spent_[event.at] = !event.watch.level && ask(event.at).direction == event.watch.direction;  // of levels groups keep account themselves
+  spent_[event.at] = !event.watch.level && ask(event.at).direction == event.watch.direction;  // groups track level events themselves
   return out;
 }
 

@@ -14,8 +14,7 @@ namespace pintle {
 
 namespace {
 
-// How much of the slip that 1 N would change between free bodies it changes under the joints, of column i of what sticks. Near 0, as at a
-// dead centre, nothing can hold it there.
+// The change of slip by 1 N on column i of what sticks, relative to that of free bodies. Near 0, as at a dead centre, no force can hold it.
 double leverage(const System& system, Equations& eq, Eigen::Index i) {
   Eigen::VectorXd a = eq.sticking.J.col(i), lambda;
   double free = 0;
@@ -43,9 +42,9 @@ FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : sys
   fastest_.resize(dry_.size());
 }
 
-// A slip below this is none, beside what has been [m/s].
+// A slip below this counts as zero, compared with the slip so far [m/s].
 double FrictionEvents::still(int event) const {
-  constexpr double part = 1e-10, least = 1e-13;  // of its fastest; of the mechanism's length in a second
+  constexpr double part = 1e-10, least = 1e-13;  // relative to its fastest slip; to the mechanism's length per second
   return std::max(part * fastest_[static_cast<std::size_t>(event / 2)], least * system_.length);
 }
 
@@ -56,9 +55,9 @@ std::string FrictionEvents::name(int event) const {
   return (of_sliding(event) ? "slip at " : "sticking at ") + where + "\"";
 }
 
-// Whether something slides or sticks is its state's, so guards of what it is not doing stay off zero.
+// The state says whether something slides or sticks, so the guards of the other mode are kept away from zero.
 WatchedGuard FrictionEvents::watch(int event) const {
-  const double known = of_rigid(place(event)) ? 1e-9 : 1e-6;  // of the force that holds, at worst
+  const double known = of_rigid(place(event)) ? 1e-9 : 1e-6;  // worst relative accuracy of the holding force
   if (of_sliding(event)) return {.direction = Direction::falling, .zero = still(event), .at_once = true};
   return {.direction = Direction::rising, .zero = known, .at_once = true};
 }
@@ -95,7 +94,7 @@ Guard FrictionEvents::guard(int event, const State& state, const Equations& eq) 
 
 namespace {
 
-constexpr double part_of_most = 1e-9;  // of the greatest force of closed rigid contacts: less is none
+constexpr double part_of_most = 1e-9;  // relative to the greatest force of closed rigid contacts: a smaller force counts as none
 
 double most_pressed(const System& system, const State& state) {
   double out = 0;
@@ -106,18 +105,18 @@ double most_pressed(const System& system, const State& state) {
 
 }  // namespace
 
-// Sliding ends a little past 0, so that it can begin at 0. What holds is measured by what can be held.
+// Sliding ends a little past 0, so that it can begin at 0. The holding force is relative to the most that can be held.
 Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& now) const {
   const DryFriction& dry = state.friction[place(event)];
   const bool undecided = dry.direction == DryFriction::undecided;
   if (of_sliding(event)) return {undecided || dry.direction == 0 ? 1.0 : dry.direction * now.slip + 2 * still(event)};
   if (undecided || dry.direction != 0) return {undecided ? 1.0 : -1.0};
   const double force = std::abs(dry.force), limit = now.holds;
-  if (force > limit && of_rigid(place(event)) && limit <= part_of_most * most_pressed(system_, state)) return {-1.0};  // of rounding both
+  if (force > limit && of_rigid(place(event)) && limit <= part_of_most * most_pressed(system_, state)) return {-1.0};  // both are rounding
   return {force <= limit ? (limit > 0 ? force / limit : 0) - 1 : std::min(force / std::max(limit, 1e-300), 1e300) - 1};
 }
 
-// A slip that comes to 0 and back in one step, or a force that comes to what can be held and back.
+// A slip that reaches 0 and returns within one step, or a force that reaches its limit and returns.
 std::optional<double> FrictionEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   const DryFriction& dry = step.from.state.friction[place(event)];
   if (dry.direction == DryFriction::undecided || of_sliding(event) == (dry.direction == 0)) return std::nullopt;
@@ -130,7 +129,7 @@ std::optional<double> FrictionEvents::positive_inside(int event, const Step& ste
   return rounding ? std::nullopt : inside;
 }
 
-// In a step of length h no body goes farther by this force than the last digits of its place.
+// In a step of length h this force moves no body by more than the rounding of its position.
 bool FrictionEvents::moves_nothing(double force, double h) const {
   constexpr double digits = 1e-13;
   double lightest = std::numeric_limits<double>::infinity();
@@ -139,7 +138,7 @@ bool FrictionEvents::moves_nothing(double force, double h) const {
 }
 
 bool FrictionEvents::met(int event, const Guard& at_end) const {
-  constexpr double part = 1e-2, rounding = 1e-13, rigid = 1e-10;  // finer than what decide_rigid tells apart
+  constexpr double part = 1e-2, rounding = 1e-13, rigid = 1e-10;  // finer than decide_rigid distinguishes
   const double known = of_rigid(place(event)) ? rigid : std::max(part * tolerance_, rounding);
   return std::abs(at_end.value) <= (of_sliding(event) ? still(event) / 2 : known);
 }
@@ -171,7 +170,7 @@ EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
               "the contact a law with a stiffness, or less friction"};
 }
 
-// What slid until now and cannot be held goes on the other way.
+// Friction that slid until now and that no force can hold slides in the opposite direction.
 void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
   constexpr double dead = 1e-4;
   pose(system_, state.t, state.y, *eq_);
@@ -190,7 +189,8 @@ void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
 
 namespace {
 
-// A closed rigid contact opens, though all of them together should hold it: as discs from wall to wall, one of which is thrown out of the row.
+// A closed rigid contact opens although all of them should hold: as with discs in a row from wall to wall, one of which is pushed out of
+// the row.
 bool opens(const System& system, const Equations& eq) {
   constexpr double nearly = 1e-3;
   const Eigen::VectorXd rate = sticking_accelerations(system, eq), by_forces = eq.sticking.J.transpose() * eq.a,
@@ -218,7 +218,7 @@ bool overcharged(const System& system, const State& state, const Equations& eq) 
 
 }  // namespace
 
-// What slides goes on, or begins to against the force that held it; all that is at rest sticks, to begin with.
+// Sliding continues, or begins against the force that held; everything at rest is first assumed to stick.
 FrictionEvents::Resting FrictionEvents::classify(State& state, std::optional<std::size_t> slips) const {
   Resting out;
   for (int event = 0; event < size(); event += 2) {
@@ -232,7 +232,7 @@ FrictionEvents::Resting FrictionEvents::classify(State& state, std::optional<std
     }
     const double slip = now(k, state).slip;
     const bool slow = std::abs(slip) <= 4 * still(event);
-    if (k == slips && slow && !of_rigid(k)) {  // of rigid contacts all are decided at once
+    if (k == slips && slow && !of_rigid(k)) {  // rigid contacts are decided together
       dry.direction = -std::copysign(1.0, dry.force);
     } else if (k == slips || !(slow || dry.direction == 0)) {
       dry.direction = std::copysign(1.0, slip);
@@ -246,7 +246,7 @@ FrictionEvents::Resting FrictionEvents::classify(State& state, std::optional<std
   return out;
 }
 
-// Rigid contacts, whose normal forces depend on their friction, are decided together.
+// Rigid contacts are decided together, since their normal forces depend on their friction.
 bool FrictionEvents::decide_rigid_ones(State& state, bool at_limit) {
   if (!at_limit && !overcharged(system_, state, *eq_)) return true;
   Eigen::VectorXd dy(system_.n_y());
@@ -256,7 +256,7 @@ bool FrictionEvents::decide_rigid_ones(State& state, bool at_limit) {
   return false;
 }
 
-// Of what cannot hold, that which is asked for most slides, against the force that would have held it, until the rest can.
+// Of the forces beyond their limit, the one with the largest ratio is made to slide, against its holding force, until the rest can hold.
 bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
   constexpr double little = 1e-9, nearly = 1e-6;
   const Resting resting = classify(state, slips);
@@ -268,7 +268,7 @@ bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
     if (!evaluate(system_, state, *eq_, dy)) return !resting.rigid;
     if (resting.rigid && !decide_rigid_ones(state, slips && tries == 0)) return false;
     std::optional<std::size_t> worst;
-    double most = slips ? 1 - nearly : 1 + little;  // what shares the load gives way together
+    double most = slips ? 1 - nearly : 1 + little;  // forces that share the load give way together
     for (const std::size_t k : resting.at) {
       if (!sticks(system_, state, k) || of_rigid(k)) continue;
       const FrictionNow held = friction_now(system_, *eq_, k);

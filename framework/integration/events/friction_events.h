@@ -9,9 +9,9 @@
 
 namespace pintle {
 
-/// Stick and slip of dry friction, of contacts and in joints, and which closed rigid contacts stay closed. Two events each: sliding ends where the slip comes to 0; sticking ends where the force that
-/// holds comes to μ_s N. At either, all that does not slide is looked at together: which of it can hold, and which way the
-/// rest goes. What each is doing stands in State::friction.
+/// Stick and slip of dry friction in contacts and joints, and which closed rigid contacts stay closed. Two events each: sliding ends where
+/// the slip reaches 0; sticking ends where the holding force reaches μ_s N. At either event everything that does not slide is examined
+/// together: what can hold, and in which direction the rest slides. The present modes are in State::friction.
 class FrictionEvents final : public EventGroup {
  public:
   FrictionEvents(const System&, const Scheme&);
@@ -40,7 +40,7 @@ class FrictionEvents final : public EventGroup {
   FrictionNow now(std::size_t at, const State&) const;
   Guard guard(int event, const State&, const FrictionNow&) const;
   bool of_rigid(std::size_t at) const;
-  /// What sticks, and the directions in which these slid before.
+  /// What sticks, and the direction in which each slid before.
   struct Resting {
     std::vector<std::size_t> at;
     std::vector<double> came;
@@ -49,13 +49,13 @@ class FrictionEvents final : public EventGroup {
   Resting classify(State&, std::optional<std::size_t> slips) const;
   void pass_dead_centres(const Resting&, State&);
   bool decide_rigid_ones(State&, bool at_limit);
-  bool decide(State&, std::optional<std::size_t> slips);  ///< false: rigid contacts find no forces
+  bool decide(State&, std::optional<std::size_t> slips);  ///< false: no forces of the rigid contacts are found
 
   const System& system_;
   double tolerance_;
-  std::vector<double> fastest_;    ///< slip of each so far [m/s]
-  std::vector<std::size_t> dry_;   ///< places in State::friction
-  std::unique_ptr<Equations> eq_;  ///< from the first decision on
+  std::vector<double> fastest_;    ///< largest slip of each so far [m/s]
+  std::vector<std::size_t> dry_;   ///< indices into State::friction
+  std::unique_ptr<Equations> eq_;  ///< created at the first decision
 };
 
 }  // namespace pintle

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// One stay of a journal at its bearing's wall.
+/// One contact of a journal with its bearing's wall.
 struct Impact {
   int contact;
   double begin;                                                  ///< [s]
@@ -14,8 +14,8 @@ struct Impact {
   double approach;                                               ///< speed at begin, as latched [m/s]
   double separation = std::numeric_limits<double>::quiet_NaN();  ///< speed at end [m/s]
   double deepest = 0;                                            ///< [m]
-  double peak_force = 0;                                         ///< normal; of a rigid contact while it is closed [N]
-  double impulse = 0;                                            ///< of a rigid contact's impacts [N s]
+  double peak_force = 0;                                         ///< normal; for a rigid contact while it is closed [N]
+  double impulse = 0;                                            ///< of the impacts of a rigid contact [N s]
   double lost = 0;                                               ///< to hysteresis and friction [J]
   template <class A>
   void archive(A& x) {

@@ -11,8 +11,8 @@ namespace pintle {
 
 namespace {
 
-// Greatest f(x), 0 < x < 1, of an f with one summit: the summit of the parabola through three points, golden section
-// where that does not close in fast [Brent1973, ch. 5]. f is flat there: x to 1e-3 is f to about 1e-6 of its change.
+// Maximum of f(x), 0 < x < 1, for f with one maximum: vertex of the parabola through three points, golden section where that converges
+// slowly [Brent1973, ch. 5]. f is flat there: x to 1e-3 gives f to about 1e-6 of its change.
 template <class F>
 double greatest(F f) {
   constexpr double golden = 0.3819660112501051, enough = 1e-3;
@@ -59,7 +59,7 @@ void ImpactLog::begin(int contact, const State& before, const Guard& gap, double
   open_[at(contact)] = static_cast<int>(impacts_.size());
   Impact impact{.contact = contact, .begin = begin, .approach = latched};
   if (!is_rigid(pair) && (gap.value > 0 || begins_with_jump(pair.normal))) {
-    impact.deepest = std::max(gap.value, 0.0);  // a start inside the wall, or a force that begins with a jump
+    impact.deepest = std::max(gap.value, 0.0);  // a start with overlap, or a force that begins with a jump
     impact.peak_force = evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).force;
   }
   loss_at_begin_[at(contact)] = loss(contact, before);
@@ -167,8 +167,8 @@ ContactEffect pressing(const System& system, int contact, const State& state) {
 
 namespace {
 
-// Of a straight piece by whose side the other one is inside the material: how much nearer it is to this piece than to the ends of it,
-// and so to the pieces there. Through which of them it came is not to be told later.
+// For a straight piece with the other piece inside the material beside it: how much nearer that is to this piece than to its ends, and so
+// to the pieces there. Later one can no longer tell through which of them it came.
 Guard belonging(const ContactPair& pair, const Facing& now) {
   Guard out{std::numeric_limits<double>::infinity(), 0};
   const std::array<PlaceOn, 2> place = places(pair.gap, now.gap, now.a, now.b);

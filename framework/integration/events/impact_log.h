@@ -9,36 +9,37 @@
 
 namespace pintle {
 
-/// Overlap of a contact, beyond the slack of a rigid one, and its rate, from the coordinates and speeds alone.
+/// Overlap of a contact, minus the slack of a rigid one, and its rate, from the coordinates and speeds alone.
 Guard gap_of(const System&, int contact, const State&);
-/// The gap of a contact and its normal force, likewise; nothing else of what it does.
+/// The gap of a contact and its normal force, from the same data; nothing else is computed.
 ContactEffect pressing(const System&, int contact, const State&);
-/// What is above zero where a contact that is open touches: the overlap; of profiles also how far inside its pieces it is.
+/// Positive where an open contact touches: the overlap; for profiles also the distance inside its pieces.
 Guard onset_of(const System&, int contact, const State&);
-/// Of profiles, how far inside its pieces a contact is, and the side where it is nearest to leaving them.
+/// For profiles, how far inside its pieces a contact is, and at which side it is nearest to leaving them.
 Margin margin_of(const System&, int contact, const State&);
 
-/// In how many parts a step is to be looked at for a touch: one goes past no more than a quarter of the smaller piece, at the speeds of the
-/// step's ends. 0: at twice these they are too far apart to meet.
+/// The number of parts of a step to examine for touching: in each the motion is at most a quarter of the smaller piece, at the speeds of
+/// the step's ends. 0: even at twice these speeds they are too far apart to meet.
 int parts_to_look_at(const System&, int contact, const Step&);
 
-/// What each stay of a journal at its bearing's wall does: written as it begins, lasts and ends.
+/// Log of the contacts of each journal with its bearing's wall: updated as each begins, lasts and ends.
 class ImpactLog {
  public:
   explicit ImpactLog(const System&);
 
   bool touching(int contact) const { return open_[static_cast<std::size_t>(contact)] >= 0; }
-  /// @param before  its losses are counted from here   @param gap  where it begins   @param begin  moment, perhaps between the clock's
+  /// @param before  state from which its losses are counted   @param gap  where it begins   @param begin  time, to better than the digits
+  /// of the clock
   /// @param latched  its approach speed
   void begin(int contact, const State& before, const Guard& gap, double begin, double latched);
   void end(int contact, double end, double separation);
-  /// An impact of a rigid contact in its stay; it may end it. After it is booked.
+  /// An impact of a rigid contact during its contact; it may end the contact. Call after the energy is recorded.
   void strike(const Blow&, const State&);
-  /// The stay goes on at another pair of the same two profiles.
+  /// The contact continues at another pair of the same two profiles.
   void pass(int contact, int to);
   /// Deepest penetration, peak force and loss of the contacts that are closed during an accepted step.
   void follow(const Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&);
-  const std::vector<Impact>& impacts() const { return impacts_; }  ///< in order of beginning
+  const std::vector<Impact>& impacts() const { return impacts_; }  ///< in order of their begin
 
   template <class A>
   void archive(A& x) {
@@ -52,7 +53,7 @@ class ImpactLog {
 
   const System& system_;
   std::vector<Impact> impacts_;
-  std::vector<int> open_;              ///< per contact, index into impacts_, −1 while there is none
+  std::vector<int> open_;              ///< per contact, index into impacts_, −1 while open
   std::vector<double> loss_at_begin_;  ///< per contact [J]
 };
 

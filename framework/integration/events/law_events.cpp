@@ -14,8 +14,8 @@ namespace pintle {
 
 namespace {
 
-// Of the largest that a switch was: where it is met, how near it is there, and how far it must come back to switch again. A mark that
-// need not be met exactly is normed by its interval.
+// Relative to the largest value of a switch: when it is located, when it counts as zero, and how far it must return to switch again. A mark
+// that need not be located exactly is relative to its interval.
 constexpr double switch_rounding = 1e-15, switch_near = 1e-12, switch_lag = 2e-12, mark_near = 1e-3, mark_lag = 4e-3;
 
 }  // namespace
@@ -74,7 +74,7 @@ void LawEvents::see(const State& state) {
   for (std::size_t k = 0; k < now.size(); ++k) {
     const double left = -(now[k] + lag_[k]), largest = exact_[k] && size_[k] > 0 ? size_[k] : 1;
     if (std::isfinite(left)) size_[k] = std::max(size_[k], std::abs(left) * largest);
-    if (left > lag_[k]) lag_[k] = 0;  // well on its side
+    if (left > lag_[k]) lag_[k] = 0;  // well inside its side
   }
   for (std::size_t l = 0; l < laws_.size(); ++l)
     if (const double size = std::abs(value(laws_[l], state)); std::isfinite(size)) most_[l] = std::max(most_[l], size);
@@ -88,7 +88,7 @@ void LawEvents::find_sides(const State& state) {
     law.sided->find(state.t, signals_of(law, state).data(), found.data() + one.first);
   }
   for (std::size_t k = 0; k < sides_.size(); ++k)
-    if (lag_[k] == 0 || before[k] > 0) sides_[k] = found[k], lag_[k] = 0;  // what has just switched stands on its end
+    if (lag_[k] == 0 || before[k] > 0) sides_[k] = found[k], lag_[k] = 0;  // a switch that has just switched is at its end
 }
 
 std::string LawEvents::remedy() const {
@@ -101,7 +101,7 @@ WatchedGuard LawEvents::watch(int event) const {
   return {.direction = Direction::rising, .zero = switch_near, .at_once = true, .level = true};
 }
 
-// The most of all that is exact, or of all that is not.
+// The largest of all exact switches, or of all others.
 Guard LawEvents::guard(int event, const State& state) const {
   const std::vector<double> now = past(state);
   double most = -1;
@@ -112,7 +112,7 @@ Guard LawEvents::guard(int event, const State& state) const {
 
 bool LawEvents::met(int event, const Guard& guard) const { return std::abs(guard.value) <= (event == 0 ? switch_rounding : mark_near); }
 
-// Parts of the step are looked at, and where a switch bends towards its end between three of them.
+// Examines parts of the step, and where a switch has a maximum near its end between three points.
 std::optional<double> LawEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
   std::array<std::vector<double>, 3> left;
@@ -143,9 +143,9 @@ void LawEvents::start(Step& step) {
 
 void LawEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }
 
-// All that stand at their ends switch at once. Where no law jumps the motion goes on as it does.
+// All switches at their ends switch at once. Where no law jumps, the motion continues unchanged.
 EventOutcome LawEvents::act(int event, Step& step, const Guard&) {
-  constexpr double same = 1e-9;  // of the largest that the law was
+  constexpr double same = 1e-9;  // relative to the largest value of the law
   const State& state = step.to.state;
   const std::vector<double> now = past(state);
   const double near = event == 0 ? switch_rounding : mark_near, most = guard(event, state).value;

@@ -6,17 +6,18 @@
 
 namespace pintle {
 
-/// Where laws of signals change their course: comparisons, kinks and tables' marks, as SidedLaw has them. Laws are held on their sides
-/// within a step, which ends where the first of them comes to the end of its side. Two events: of what is exact, and of the rest.
+/// Events where laws of signals change their branch: comparisons, kinks and the marks of tables, as in SidedLaw. Laws are held on their
+/// sides within a step, which ends where the first of them reaches the end of its side. Two events: one for exact switches, one for the
+/// rest.
 class LawEvents final : public EventGroup {
  public:
   explicit LawEvents(const System&);
   /// Does any law have sides?
   static bool has_any(const System&);
 
-  /// For Equations: on which the laws are held.
+  /// For Equations: the sides on which the laws are held.
   const std::vector<int>& sides() const { return sides_; }
-  /// Where the state has jumped, sides are found again.
+  /// Finds the sides again after a jump of the state.
   void find_sides(const State&);
 
   int order() const override { return 3; }
@@ -38,10 +39,10 @@ class LawEvents final : public EventGroup {
  private:
   struct Sided {
     std::size_t law;
-    int first, end;  ///< of its switches among all
+    int first, end;  ///< range of its switches among all
   };
   std::vector<double> signals_of(const SignalLaw&, const State&) const;
-  /// Above 0 where a switch is past the end of its side, over the largest that it was.
+  /// Positive where a switch is past the end of its side, relative to its largest value.
   std::vector<double> past(const State&) const;
   double value(const Sided&, const State&) const;
   void see(const State&);
@@ -50,9 +51,9 @@ class LawEvents final : public EventGroup {
   std::vector<Sided> laws_;
   std::vector<unsigned char> exact_;       ///< of each switch
   std::vector<int> sides_;                 ///< of each switch
-  std::vector<double> size_, lag_, most_;  ///< of each switch its largest, and by how much it is held back since it came here; values
+  std::vector<double> size_, lag_, most_;  ///< per switch: largest value, lag since it switched; per law: largest value
   bool any_exact_ = false, any_not_ = false;
-  int last_ = 0;  ///< law that switched last
+  int last_ = 0;  ///< the law that switched last
 };
 
 }  // namespace pintle

@@ -11,8 +11,8 @@
 /// Zeros of guards along the dense output of a step.
 namespace pintle {
 
-/// Where a guard becomes positive between two times of a step: Newton's method on the dense output, bisection where the rate is not known
-/// or leads out of the bracket or, going away, back, by as little as rounding hides.
+/// The time at which a guard becomes positive between two times of a step: Newton's method on the dense output; bisection where the rate is
+/// unknown, leads out of the bracket, or would correct it by less than rounding.
 template <class F>
 double crossing(F guard, double t0, double t1, double fine) {
   const double f0 = guard(t0).value, f1 = guard(t1).value;
@@ -29,7 +29,7 @@ double crossing(F guard, double t0, double t1, double fine) {
   return t;
 }
 
-/// When a guard that rises at first and falls at last is positive in between: secants of the rate lead to its summit.
+/// A time at which a guard that rises at first and falls at last is positive in between: secants of the rate lead to its maximum.
 template <class F>
 std::optional<double> positive_between(F guard, double t0, double t1, double rate0, double rate1) {
   double low = t0, high = t1;
@@ -37,20 +37,20 @@ std::optional<double> positive_between(F guard, double t0, double t1, double rat
     const double t = low + (high - low) * rate0 / (rate0 - rate1);
     const Guard now = guard(t);
     if (now.value > 0) return t;
-    if (now.value + std::max(now.rate * (high - t), now.rate * (low - t)) <= 0) break;  // nor is the summit
+    if (now.value + std::max(now.rate * (high - t), now.rate * (low - t)) <= 0) break;  // then its maximum is not positive either
     (now.rate > 0 ? low : high) = t;
     (now.rate > 0 ? rate0 : rate1) = now.rate;
   }
   return std::nullopt;
 }
 
-/// By the cubic through the values and rates at both ends of h: may the guard, below zero at both, be above in between? It is asked to
-/// stay below by a tenth of what it changes by.
+/// By the cubic through the values and rates at both ends of h: may the guard, negative at both, be positive in between? It must stay below
+/// zero by a tenth of its change.
 inline bool may_be_positive_between(const Guard& from, const Guard& to, double h) {
   constexpr double part = 0.1;
   const double a = h * from.rate, b = h * to.rate, d = to.value - from.value;
   const double change = std::abs(a) + std::abs(b) + std::abs(d);
-  const double c3 = a + b - 2 * d, c2 = 3 * d - 2 * a - b;  // from + a x + c2 x² + c3 x³
+  const double c3 = a + b - 2 * d, c2 = 3 * d - 2 * a - b;  // of from + a x + c2 x² + c3 x³
   const double root = c2 * c2 - 3 * c3 * a;
   if (!(root >= 0)) return false;
   const double q = -(c2 + std::copysign(std::sqrt(root), c2));
@@ -59,10 +59,11 @@ inline bool may_be_positive_between(const Guard& from, const Guard& to, double h
   return false;
 }
 
-/// When a value, above zero at three times, is below between them: parabolas through the last three lead to its least.
+/// A time at which a value that is positive at three times is negative between them: parabolas through the last three points lead to its
+/// minimum.
 template <class F>
 std::optional<double> below_zero_near(F value, std::array<double, 3> t, std::array<double, 3> f) {
-  constexpr double near = 0.1;  // of what it changes by
+  constexpr double near = 0.1;  // relative to its change
   const double begin = t[0], end = t[2];
   for (int i = 0; i < 4; ++i) {
     const double slope = (f[1] - f[0]) / (t[1] - t[0]), curve = ((f[2] - f[1]) / (t[2] - t[1]) - slope) / (t[2] - t[0]);
@@ -80,8 +81,8 @@ std::optional<double> below_zero_near(F value, std::array<double, 3> t, std::arr
   return std::nullopt;
 }
 
-/// A time inside a step at which a value that is above zero at its start is below by more than `clear`: at eighths of the step, or at the
-/// least of parabolas between them.
+/// A time inside a step at which a value that is positive at its start is below −`clear`: at eighths of the step, or at the minima of
+/// parabolas between them.
 template <class F>
 std::optional<double> below_zero_inside(F value, const Step& step, double at_start, double clear = 0) {
   constexpr int parts = 8;
@@ -99,7 +100,7 @@ std::optional<double> below_zero_inside(F value, const Step& step, double at_sta
   return std::nullopt;
 }
 
-/// The first time at which a guard, looked at in parts of a step, is found above zero.
+/// The first time at which a guard, sampled in parts of a step, is positive.
 template <class F>
 std::optional<double> positive_in_parts(F guard, double t0, const Guard& at_t0, double t1) {
   constexpr int parts = 8;

@@ -14,7 +14,7 @@ namespace pintle {
 
 namespace {
 
-constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of the largest that it was: where it is met, and where it is zero
+constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of its largest value: when it is located, when it is zero
 constexpr double guard_still = 1e-10;                         // … and within which it has not moved
 
 }  // namespace
@@ -28,7 +28,7 @@ SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules
   }
 }
 
-// The least of them all, each over the largest that it was.
+// The smallest of them, each relative to its largest value.
 Guard SceneEvents::all_of(int event, const State& state) const {
   Guard least{std::numeric_limits<double>::infinity()};
   const auto& when = rules_[at(event)].when;
@@ -53,7 +53,7 @@ double SceneEvents::look(int event, const State& state, std::vector<double>& out
   return least;
 }
 
-// As it is written, but that what is nearer to equal than this is equal.
+// As written, except that numbers closer than this count as equal.
 bool SceneEvents::holds(int event, const State& state) const {
   std::vector<double> now;
   look(event, state, now);
@@ -62,7 +62,7 @@ bool SceneEvents::holds(int event, const State& state) const {
   return true;
 }
 
-// By what the motion starts with.
+// Judged by the initial motion.
 bool SceneEvents::rises(int event, const Instant& from) const {
   constexpr double dt = 1e-5;
   const Eigen::Index n = system_.n();
@@ -73,8 +73,8 @@ bool SceneEvents::rises(int event, const Instant& from) const {
   return all_of(event, next).value > std::max(guard_near, all_of(event, from.state).value);
 }
 
-// A comparison is as large as what it compares has been, or would be if all moved as fast as the fastest: else it would be measured by
-// rounding where what it asks for stands still.
+// The size of a comparison is the largest so far of what it compares, or what that would be if everything moved as fast as the fastest:
+// otherwise a quantity at rest would be compared with rounding.
 void SceneEvents::see(const State& state) {
   const Eigen::Index n = system_.n();
   if (any_of_speeds_ && n > 0) {
@@ -109,13 +109,13 @@ WatchedGuard SceneEvents::watch(int event) const {
 
 Guard SceneEvents::guard(int event, const State& state) const {
   Guard now = all_of(event, state);
-  if (std::isnan(now.value)) return {waits_[at(event)] == Waits::for_true ? 1.0 : -1.0};  // which leads to `act`, where it is named
+  if (std::isnan(now.value)) return {waits_[at(event)] == Waits::for_true ? 1.0 : -1.0};  // leads to `act`, which reports it
   now.value += shift_[at(event)];
   return now;
 }
 
-// Parts of the step are looked at, and in each the zeros of every comparison, of its kinks, and of touches between three looks:
-// between two of these nothing turns true or false.
+// Examines parts of the step, and in each the zeros of every comparison, of its kinks, and of minima between three points: between two of
+// these no comparison changes its truth.
 std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
   constexpr double fine = 1e-12;
@@ -124,7 +124,7 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
   const auto comes = [&](double t) { return sign * guard(event, motion.at(t)).value > 0; };
   struct Moment {
     double t;
-    std::optional<bool> comes = {};  ///< where it is known
+    std::optional<bool> comes = {};  ///< if known
   };
   const auto looked = [&](double t) {
     std::vector<double> out;
@@ -148,7 +148,7 @@ std::optional<double> SceneEvents::positive_inside(int event, const Step& step, 
       const auto of_k = [&](double when) { return near * looked(when)[k]; };
       if (const auto touch = below_zero_near(of_k, t, {near * f[0][k], near * f[1][k], near * f[2][k]})) moments.push_back({*touch});
     }
-    moments.push_back({t[2], !(sign * f[2].back() <= 0)});  // NaN comes, to be named
+    moments.push_back({t[2], !(sign * f[2].back() <= 0)});  // NaN counts, to be reported
   }
   std::ranges::sort(moments, {}, &Moment::t);
   for (std::size_t i = 0; i < moments.size(); ++i) {
@@ -165,7 +165,7 @@ bool SceneEvents::comes_at_zero(int event, const State& state) const {
 
 bool SceneEvents::met(int, const Guard& guard) const { return std::abs(guard.value) <= guard_rounding; }
 
-// At the ends of steps, and in the middle of the last, which may be all that lies between.
+// At the ends of steps, and in the middle of the last step, which may be the only point between two events.
 bool SceneEvents::hardly_left(int event, const Step& step, const DenseOutput& motion) const {
   if (away_[at(event)] > guard_still) return false;
   return step.h == 0 || std::abs(guard(event, motion.at(step.from.state.t + step.h / 2)).value) <= guard_still;
@@ -185,7 +185,7 @@ void SceneEvents::start(Step& step) {
   }
 }
 
-// What stands at zero and does not rise there, such as the speed of what is held, has to rise by more than rounding can.
+// A comparison at zero that does not rise there, such as the speed of something held, must rise by more than rounding.
 void SceneEvents::begin_step(const State& from) {
   for (int event = 0; event < size(); ++event) {
     if (waits_[at(event)] != Waits::for_true || shift_[at(event)] != 0) continue;
@@ -194,7 +194,7 @@ void SceneEvents::begin_step(const State& from) {
   }
 }
 
-// What has gone well past zero is at zero when it comes there again.
+// The shift of a guard is removed once it has gone well below zero.
 void SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
   see(step.to.state);
   for (int event = 0; event < size(); ++event) {
@@ -204,7 +204,8 @@ void SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<cons
   }
 }
 
-// Others that come down to the level at which one acts are no longer true there, and may become so as soon as the motion turns back.
+// Other conditions that fall to the level at which this event acts are no longer true there, and may become true as soon as the motion
+// reverses.
 void SceneEvents::rearm_beside(int event, const Step& step) {
   for (int other = 0; other < size(); ++other) {
     if (other == event || waits_[at(other)] != Waits::for_false) continue;
@@ -218,8 +219,8 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
   }
 }
 
-// A state that jumps may come to stand exactly where two numbers are equal. Where it makes a condition false, that may become true again at
-// this instant, though nothing is to be done where it is false.
+// A jump of the state may make two compared numbers exactly equal. A condition that it makes false may become true again at this instant,
+// even if nothing is to be done when it is false.
 void SceneEvents::decide_on_level(const std::vector<double>& before, const State& state) {
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value;
@@ -250,7 +251,7 @@ void add_words(std::string& did, const std::string& words) {
 
 }  // namespace
 
-// @returns false where they cannot be switched so
+// @returns false where they cannot be switched this way
 bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& state, EventOutcome& out) {
   std::vector<SwitchOver> changes;
   for (const EventAction& action : actions)
@@ -286,7 +287,7 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   State& state = step.to.state;
   std::vector<double> before;
   for (int other = 0; other < size(); ++other) before.push_back(all_of(other, state).value);
-  const double now = before[at(event)];  // zero, but for what the clock's last digit leaves
+  const double now = before[at(event)];  // zero, up to the rounding of the time
   shift_[at(event)] = becomes_true ? std::max(2 * guard_near, -2 * now) : now > -guard_near ? -2 * guard_near - now : 0;
   rearm_beside(event, step);
   if (!switches_all(actions, state, out)) {

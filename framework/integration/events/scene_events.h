@@ -11,11 +11,11 @@
 
 namespace pintle {
 
-/// What an event of the scene does. All that it switches it switches at one instant, before the rest.
+/// Actions of an event of the scene. All its switching happens at one instant, before the rest.
 struct StopRun {
   std::string reason;
 };
-/// A change of the state: a number of the scene's own gets a value.
+/// A change of the state: one of the scene's own states gets a value.
 struct SetState {
   std::string name;
   std::function<void(const System&, const State& seen, State&)> set;
@@ -23,32 +23,32 @@ struct SetState {
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 
-/// What is wanted of a comparison beside its difference, all of one reading of the state.
+/// Which results of a comparison are wanted besides its difference, all from one evaluation of the state.
 struct Wanted {
-  bool rate = false;                     ///< of the difference, where it is known
-  double* size = nullptr;                ///< ← of what is compared: what the difference is small against
-  std::vector<double>* kinks = nullptr;  ///< appended: numbers at whose zeros the difference has a kink or jumps
+  bool rate = false;                     ///< of the difference, where known
+  double* size = nullptr;                ///< ← size of the compared quantities, the scale of the difference
+  std::vector<double>* kinks = nullptr;  ///< appended: numbers at whose zeros the difference has a kink or jump
 };
 
-/// One comparison of an event's condition: what is greater less what is less, above zero where it holds.
+/// One comparison of an event's condition: greater side minus lesser side, positive where it holds.
 struct SceneComparison {
   std::function<Guard(const System&, const State&, const Wanted&)> difference;
-  bool at_zero = false;                                               ///< holds where both are equal
-  bool of_speeds = false;                                             ///< compares speeds of the motion, or what follows from these
-  std::function<std::string(const System&, const State&)> seen = {};  ///< what it compares there, in words
+  bool at_zero = false;                                               ///< true where both are equal
+  bool of_speeds = false;                                             ///< compares speeds of the motion, or quantities that depend on them
+  std::function<std::string(const System&, const State&)> seen = {};  ///< the compared values, in words
 };
 
-/// An event as the scene describes it: it comes when all of its comparisons have become true, and acts once, or each time that they do.
+/// An event as the scene describes it: it occurs when all of its comparisons have become true, and acts once, or each time they do.
 struct SceneEventRule {
   std::string name;
   std::vector<SceneComparison> when;
   std::vector<EventAction> actions;
-  std::vector<EventAction> otherwise = {};  ///< when they no longer are
+  std::vector<EventAction> otherwise = {};  ///< when they are no longer true
   bool once = false;
-  bool from_start = true;  ///< where they are true at the start, it acts there
+  bool from_start = true;  ///< if they are true at the start, it acts there
 };
 
-/// The events of a scene, in their order. At one instant they come after those of contacts and of friction.
+/// The events of a scene, in their order. At one instant they act after those of contacts and of friction.
 class SceneEvents final : public EventGroup {
  public:
   SceneEvents(const System&, std::vector<SceneEventRule>);
@@ -73,10 +73,10 @@ class SceneEvents final : public EventGroup {
   const char* fault() const override;
 
  private:
-  /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
+  /// What an event waits for: to become true or, after acting, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
-  /// Each comparison over its size; where wanted, its kinks too. @returns the least of them
+  /// Each comparison relative to its size; if wanted, also its kinks. @returns the smallest of them
   double look(int event, const State&, std::vector<double>& out, bool with_kinks = false) const;
   bool holds(int event, const State&) const;
   bool rises(int event, const Instant&) const;
@@ -88,13 +88,13 @@ class SceneEvents final : public EventGroup {
   const System& system_;
   std::vector<SceneEventRule> rules_;
   std::vector<Waits> waits_;
-  std::vector<std::size_t> first_;  ///< place in `size_` of each event's first comparison
-  std::vector<double> size_;        ///< of each comparison so far, the largest, by which it is measured
+  std::vector<std::size_t> first_;  ///< index in `size_` of each event's first comparison
+  std::vector<double> size_;        ///< largest value of each comparison so far, its scale
   bool any_of_speeds_ = false;
-  State faster_;                   ///< workspace: what was seen, with all as fast as the fastest
-  std::vector<double> away_;       ///< how far each guard has been from zero since its event came last
-  std::vector<double> shift_;      ///< of each guard since it was last passed, or stood at zero: so it comes once where it stands
-  std::unique_ptr<Equations> eq_;  ///< from the first switching on
+  State faster_;                   ///< workspace: the last state, with every speed as fast as the fastest
+  std::vector<double> away_;       ///< largest distance of each guard from zero since its event last occurred
+  std::vector<double> shift_;      ///< of each guard since it last passed or was at zero, so that its event occurs only once there
+  std::unique_ptr<Equations> eq_;  ///< created at the first switching
 };
 
 }  // namespace pintle

@@ -52,7 +52,7 @@ void Partition::factor() {
   }
 }
 
-// q or s, as `y` points to, −= scaled solution of block · x = violation
+// subtracts the scaled solution of block · x = violation from q or s, as `y` points to
 double Partition::subtract(const System& system, const Eigen::VectorXd& violation, double* y) {
   if (block_.rows() == block_.cols())
     step_ = lu_.solve(violation.cwiseProduct(system.row_scale));

@@ -15,7 +15,7 @@ RungeKutta::RungeKutta(const System& system, const Tableau& tableau, Constraints
       tolerance_(tolerance),
       stages_(system, tableau, constraints) {}
 
-// No shape's first period is stepped over.
+// Does not skip the first period of any shape.
 double RungeKutta::first_step(const Instant&, const ErrorNorm&, double) const {
   double h = std::numeric_limits<double>::infinity();
   for (const Body& b : system_.bodies)
@@ -33,7 +33,7 @@ bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
   auto& [stages, node] = *reading_;
   stages.take_partition(stages_);
   const bool inside = t < step.to.state.t;
-  const bool by_a_step = inside && stages.tableau().order > 5;  // better than dense output, whose fifth order its long steps show
+  const bool by_a_step = inside && stages.tableau().order > 5;  // better than fifth-order dense output over its long steps
   bool found;
   if (by_a_step) {
     found = stages.reach(system_, step.from, t - step.from.state.t, node, eq);
@@ -51,7 +51,7 @@ bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
 }
 
 namespace {
-constexpr double few = 1e-9;  // a pivot at which accelerations are known to few digits; pivots fall with the square of the distance
+constexpr double few = 1e-9;  // a pivot at which accelerations have few accurate digits; pivots fall with the square of the distance
 }
 
 bool RungeKutta::near_singular(const Equations& eq) const {
@@ -59,23 +59,24 @@ bool RungeKutta::near_singular(const Equations& eq) const {
   return S.lost() > eq.permanent || (S.near_singular(eq.permanent) && S.kept() < few);
 }
 
-// Accelerations at a distance u of a pose where motions branch are known to ω² ε/u³, ε the rounding of places, and of that a step brings
-// the part hω into the motion: the pivot, which falls as u², that leaves the tolerance.
+// At a distance u from a configuration where motions branch, accelerations are accurate to ω² ε/u³, where ε is the rounding of positions,
+// and a step brings the part hω of this error into the motion. Returns the pivot, which falls as u², at which this meets the tolerance.
 double RungeKutta::pivot_known(const Step& step) const {
   constexpr double rounding = 1e-16;
   const double turn = step.h * fastest_rate(system_, step.to.state.y);
   return std::max(few, std::pow(turn * turn * rounding / tolerance_, 2.0 / 3));
 }
 
-// Where the step's end is about as near it is bodies of unlike inertias, not the pose.
+// If the step's end is about equally near, the cause is very different inertias, not the configuration.
 bool RungeKutta::strayed_near_singular(const Step& step, const Equations& eq) const {
   constexpr double nearer = 0.1;
   return stages_.closest() < std::min(pivot_known(step), nearer * eq.schur.kept());
 }
 
-// What of the error the joints do not allow the projection has taken away; so near a singular pose stages know it to few digits.
+// The projection has removed the part of the error that the joints do not allow; near a singular configuration the stages give that part
+// only a few accurate digits.
 bool RungeKutta::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) {
-  constexpr double safety = 10;  // the estimate takes differences of stages
+  constexpr double safety = 10;  // the estimate uses differences of stages
   if (!stages_.attempt(system_, h, step, eq)) return false;
   if (stages_.weak() && stages_.constraints() == Constraints::projection && stages_.closest() < safety * pivot_known(step))
     for (const int begin : {0, system_.n()}) keep_allowed(system_, eq, step.error.data() + begin);

@@ -32,7 +32,7 @@ class RungeKutta final : public Stepper {
   void evaluate_end(const Step&, Equations&) override;
 
  private:
-  /// Has stages of its own, so that readings change neither the steps nor each other.
+  /// Has its own stages, so that samples affect neither the steps nor each other.
   struct Reading {
     Stages stages;
     Instant node;
@@ -44,7 +44,7 @@ class RungeKutta final : public Stepper {
   StepperTraits traits_;
   double tolerance_;
   Stages stages_;
-  std::unique_ptr<Reading> reading_;  ///< from the first sample on
+  std::unique_ptr<Reading> reading_;  ///< created at the first sample
 };
 
 }  // namespace pintle

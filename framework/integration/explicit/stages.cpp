@@ -12,7 +12,7 @@ using Index = Eigen::Index;
 
 namespace {
 
-// y += h Σ wⱼ kⱼ, four columns in one pass over y.
+// y += h Σ wⱼ kⱼ, four columns in each pass over y.
 void add_combination(double h, const std::vector<double>& w, const std::vector<Eigen::VectorXd>& k, Eigen::VectorXd& y) {
   std::array<std::size_t, 4> at{};
   std::size_t count = 0;
@@ -62,8 +62,8 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
   return eq.regular;
 }
 
-// What is lost beside rows that are redundant in every pose, and small pivots, mark a singular pose. Of large systems with such rows the
-// pivots tell nothing: which of them are small depends on their order.
+// Lost pivots beyond those of permanently redundant rows, and small pivots, indicate a singular configuration. In large systems with
+// redundant rows the pivots say nothing: which of them are small depends on their order.
 void Stages::watch(const Equations& eq) {
   weak_ = weak_ || eq.schur.near_singular(eq.permanent);
   if (eq.schur.lost() > eq.permanent)
@@ -97,8 +97,8 @@ void Stages::refresh(const System& system, Equations& eq) {
   if (partition_.worn() || rank_changed) partition_.choose(system, eq);
 }
 
-// Stages on the constraints and stages off them do not go together: each kind meets the conditions of order, a mixture does not. Where one
-// but the first turns out to need the projection, all are made again.
+// Projected and unprojected stages must not be mixed: each kind satisfies the order conditions, a mixture does not. If any stage but the
+// first turns out to need the projection, all are computed again.
 bool Stages::evaluate_inner(const System& system, const Instant& from_node, double h, Equations& eq) {
   const State& from = from_node.state;
   const std::size_t inner = tableau_.closes ? k_.size() - 1 : k_.size();
@@ -128,7 +128,7 @@ bool Stages::reach(const System& system, const Instant& from_node, double h, Ins
   to.impact_rate = from.impact_rate;
   to.friction = from.friction;
   to.y = from.y;
-  add_combination(h, tableau_.b, k_, to.y);  // a closing stage has no weight
+  add_combination(h, tableau_.b, k_, to.y);  // a closing stage has weight 0
   if (!to.y.allFinite() || !project(system, to_node, eq)) return false;
   watch(eq);
   if (tableau_.closes) k_.back() = to_node.dy;
@@ -145,9 +145,9 @@ bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) 
 
 namespace {
 
-// d of the interpolant of fourth order  cubic + x²(1 − x)² h Σ dᵢkᵢ  that a pair of order five has without further stages, k₇ the
-// derivative at the step's end: Σd, Σdc, Σdc², ΣdAc vanish, Σdc³ = 1/4, Σdc Ac = 1/8, ΣdAc² = 1/12, ΣdAAc = 1/24. Dormand and
-// Prince's are those of [HairerNorsettWanner1993, II.6]; Fehlberg's leave one free, which is 0.
+// d of the fourth-order interpolant  cubic + x²(1 − x)² h Σ dᵢkᵢ  of a pair of order five without further stages, where k₇ is the
+// derivative at the step's end: Σd, Σdc, Σdc², ΣdAc vanish, Σdc³ = 1/4, Σdc Ac = 1/8, ΣdAc² = 1/12, ΣdAAc = 1/24. Dormand and Prince's
+// values are from [HairerNorsettWanner1993, II.6]; Fehlberg's leave one free parameter, set to 0.
 const std::array<double, 7>* quartic_of(const Tableau& tableau) {
   static constexpr std::array<double, 7> dopri5{-12715105075.0 / 11282082432,  0,
                                                 87487479700.0 / 32700410799,   -10690763975.0 / 1880347072,
@@ -159,7 +159,7 @@ const std::array<double, 7>* quartic_of(const Tableau& tableau) {
 
 }  // namespace
 
-// Of the cubic alone they would err by h⁴ inside a step and by h⁶ at its end.
+// With the cubic alone the error would be h⁴ inside a step but h⁶ at its end.
 void Stages::refine_cubics(const System& system, const Step& step, State& out) const {
   const std::array<double, 7>* d = quartic_of(tableau_);
   if (d == nullptr) return;
@@ -171,7 +171,7 @@ void Stages::refine_cubics(const System& system, const Step& step, State& out) c
 
 double Stages::stiffness(const System& system, const Step& step) const {
   const std::size_t last = k_.size() - (tableau_.closes ? 2 : 1);
-  std::size_t inner = last;  // the last that stands at the step's end
+  std::size_t inner = last;  // the last stage at the time of the step's end
   while (inner > 0 && tableau_.c[inner] != 1) --inner;
   if (inner == 0) return 0;
   const auto stage = [&](Index i) {

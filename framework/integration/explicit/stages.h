@@ -11,41 +11,41 @@
 
 namespace pintle {
 
-/// Scratch of a scheme: its stages and the constraint treatment. One per thread.
+/// Scratch of a scheme: its stages and the treatment of constraints. One per thread.
 class Stages {
  public:
   Stages(const System&, const Tableau&, Constraints);
 
-  /// Brings y onto the constraints and evaluates everything there. @returns false at a singular pose
+  /// Projects y onto the constraints and evaluates everything there. @returns false in a singular configuration
   bool project(const System&, Instant&, Equations&);
   /// Fills step.to and step.error from step.from and h. @returns false if a stage could not be
   /// evaluated or is not finite; step.from is never changed.
   bool attempt(const System&, double h, Step&, Equations&);
-  /// The state that a step of h from a node leads to, projected onto the constraints and evaluated, without an error estimate.
+  /// Computes the state after a step of h from a node, projected onto the constraints and evaluated, without an error estimate.
   bool reach(const System&, const Instant& from, double h, Instant& to, Equations&);
-  /// Chooses a new independent set if the present one has worn out. After an accepted step.
+  /// Chooses a new independent set if the present one has become ill conditioned. After an accepted step.
   void refresh(const System&, Equations&);
-  /// Adds to the internal states and integrals that `interpolate` has put into `out` what the last attempt's stages know of them between its ends.
+  /// Improves the internal states and integrals that `interpolate` has put into `out`, by means of the last attempt's stages.
   /// @pre the step is that of the last attempt
   void refine_cubics(const System&, const Step&, State& out) const;
 
-  /// Has the same coordinates follow from the others.
+  /// Uses the same independent coordinates as `other`.
   void take_partition(const Stages& other) { partition_.take_set(other.partition_); }
 
   const Tableau& tableau() const { return tableau_; }
   Constraints constraints() const { return constraints_; }
   int partitions() const { return partition_.choices(); }
-  /// A stage since the last `reach` began stood at or near a pose where rows are dependent, or there is one among the long steps
-  /// of a pair of high order: a pivot falls with the square of the distance.
+  /// A stage since the last `reach` began was at or near a configuration with dependent rows, or there may be one within the long steps of
+  /// a pair of high order: a pivot falls with the square of the distance.
   bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
-  /// Smallest pivot of the last attempt's stages; 0: one stood in a singular pose.
+  /// Smallest pivot of the last attempt's stages; 0: a stage was in a singular configuration.
   double closest() const { return least_; }
-  /// A stage of the last attempt stood in or near a singular pose, or bodies have very unlike inertias.
+  /// A stage of the last attempt was in or near a singular configuration, or bodies have very different inertias.
   bool weak() const { return weak_; }
-  /// h times the fastest rate that the last attempt met, by the change from its last inner stage at the end's instant to that end
-  /// [HairerWanner1996, IV.2]; 0 of a pair without such a stage.
+  /// h times the fastest rate in the last attempt, from the difference between its last inner stage at the end time and the step's end
+  /// [HairerWanner1996, IV.2]; 0 for a pair without such a stage.
   double stiffness(const System&, const Step&) const;
-  /// What the next steps depend on besides the nodes.
+  /// The data besides the nodes that the next steps depend on.
   template <class A>
   void archive(A& x) {
     x(PINTLE_MEMBERS(partition_));
@@ -63,7 +63,7 @@ class Stages {
   Partition partition_;
   std::vector<Eigen::VectorXd> k_;
   State stage_;
-  bool project_stages_ = false;  ///< of the last attempt: each is brought onto the constraints
+  bool project_stages_ = false;  ///< in the last attempt: each stage is projected onto the constraints
   bool weak_ = false;
   double least_ = 1, most_ = 0;  ///< of the smallest pivots of the stages
 };

@@ -15,10 +15,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double well_below = 1e-3;  // Newton's error over the step's
+constexpr double well_below = 1e-3;  // Newton's error relative to the step's
 constexpr double on_constraints = 1e-12, nearly = 1e-11, still_near = 1e-8;
 constexpr int most_iterations = 12, many_iterations = 3;
-constexpr double slow = 0.2;  // contraction that asks for a new factor
+constexpr double slow = 0.2;  // contraction rate that calls for a new factorization
 }  // namespace
 
 AlphaWeights::AlphaWeights(double rho)
@@ -89,7 +89,7 @@ bool Alpha::project(const System& system, Instant& node, Equations& eq) {
   memory.dy_before = node.dy;
   forces_of(system, eq, memory);
   tired_ = true;
-  if (!system.switches.empty()) kkt_.forget(), factored_ = false;  // its pivots may be of rows that are released
+  if (!system.switches.empty()) kkt_.forget(), factored_ = false;  // its pivots may belong to rows that are now released
   return node.dy.allFinite();
 }
 
@@ -101,8 +101,8 @@ void Alpha::forces_of(const System& system, const Equations& eq, Memory& memory)
   memory.F = eq.f - work_;
 }
 
-// q_base, s_base, and a first guess of v̇₁, λ₁. At a start a₀ is v̇ at `shift` steps after it, by the line
-// through v̇₀ and v̇₁, which makes the step Newmark's with γ = ½ and β + shift/2: second order from the first on.
+// q_base, s_base, and a first guess of v̇₁, λ₁. At a start a₀ is v̇ extrapolated to `shift` steps after it, on the line through v̇₀ and
+// v̇₁. This makes the step Newmark's with γ = ½ and β + shift/2: second order from the first step on.
 Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
   const Index n = unit_.size(), n_s = s_base_.size();
   const auto q0 = from.state.y.head(n), s0 = from.state.y.segment(n, n_s), v0 = from.dy.segment(n, n_s);
@@ -121,7 +121,7 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
   }
   w = {h * h * beta * (1 - f) / (1 - m), h * gamma * (1 - f) / (1 - m)};
   const double ratio = h / memory.h;
-  own_ = v0 + ratio * (memory.a - v0);  // a₀, `shift` times this step after the node
+  own_ = v0 + ratio * (memory.a - v0);  // a₀, at `shift` times this step after the node
   q_base_ = q0 + h * s0.head(n) + h * h * ((0.5 - beta) * own_ + beta / (1 - m) * (f * v0 - m * own_)).head(n);
   s_base_ = s0 + h * ((1 - gamma) * own_ + gamma / (1 - m) * (f * v0 - m * own_));
   const double reach = std::min(ratio, 2.0);
@@ -132,9 +132,9 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
 
 Alpha::Weights Alpha::start_weights(double h) const { return {h * h * (weights_.beta + weights_.shift / 2), h / 2}; }
 
-// v̇ at a start as the step can follow it. Of a spring out of balance that is stiff for the step, v̇₀ would be taken for a whole
-// step, and leave it with hω times the speed that it could ever reach. With F v = (M + w.s D + w.q K)⁻¹M v, kept to the
-// constraints, v̇₀ − (1 − F)²v̇₀ is v̇₀ to h² where nothing is stiff. Likewise ẋ₀. With ρ = 1 the start is the trapezoid's rule, which keeps energies as they are.
+// v̇ at a start as the step can follow it. With an unbalanced spring that is stiff for the step, v̇₀ would act during a whole step and
+// leave it with hω times the speed that it could ever reach. With F v = (M + w.s D + w.q K)⁻¹M v, restricted to the constraints, v̇₀ − (1 −
+// F)²v̇₀ equals v̇₀ to h² where nothing is stiff. Likewise for ẋ₀. With ρ = 1 the start uses the trapezoidal rule, which conserves energy.
 bool Alpha::soften_start(const System& system, double h, const Instant& from, Equations& eq) {
   const Index n = system.n();
   start_ = from.dy.segment(n, system.n_s());
@@ -170,12 +170,12 @@ bool Alpha::refactor(const System& system, const Weights& w, const Instant& node
   factored_ = kkt_.factor(system, eq, values_);
   ++eq.factorizations;
   kept_ = w;
-  rate_ = 1;  // not known: the first step with it measures
+  rate_ = 1;  // unknown: measured in the first step with it
   tired_ = false;
   return factored_;
 }
 
-// Largest part of the last correction over what Newton may leave.
+// Largest entry of the last correction relative to the error that Newton may leave.
 double Alpha::judge(const System& system, const Weights& w, const State& state) const {
   constexpr double rounding = 2e-15;
   const double enough = well_below * tolerance_;
@@ -190,8 +190,8 @@ double Alpha::judge(const System& system, const Weights& w, const State& state) 
   return worst;
 }
 
-// Newton's iteration for v̇₁, λ₁ and p. Unknown are accelerations, so the matrix is M + w.s D + w.q K, which
-// for what is not stiff does not change with the step.
+// Newton's iteration for v̇₁, λ₁ and p. The unknowns are accelerations, so the matrix is M + w.s D + w.q K, whose non-stiff part does not
+// change with the step size.
 bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equations& eq) {
   const Index n = system.n();
   auto v = to.dy.segment(n, n);
@@ -207,7 +207,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     if (enough) {
       const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
       const double now = fastest_rate(system, y), pace = std::max(now, largest(s_base_.head(n).cwiseQuotient(system.scale)));
-      const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, to.state, eq)) * now / pace;  // where all stops
+      const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, to.state, eq)) * now / pace;  // also at rest
       if (worse(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
         tired_ = tired_ || i > many_iterations || rate_ > slow;
         return true;
@@ -232,7 +232,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     v += dv_;
     dp_.setZero();
     if (system.n_rows() > 0) {
-      mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // what δv̇ does to C taken off
+      mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // without the effect of δv̇ on C
       solve(dp_, mu_);
       p_ += dp_;
     }
@@ -241,7 +241,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     if (!std::isfinite(size)) return blame(system, eq, "Newton's iteration exceeds the range of a double");
     if (i > 0 && size > 1) {
       rate_ = size / before;
-      if (i > 1 && rate_ > 0.5 && size * well_below < 0.1) {  // as near as rounding lets it come
+      if (i > 1 && rate_ > 0.5 && size * well_below < 0.1) {  // as near as rounding allows
         enough = true, rate_ = slow;
         continue;
       }
@@ -250,7 +250,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     } else if (i > 0 && before > 1) {
       rate_ = std::max(size / before, 1e-3);
     } else if (i == 0) {
-      rate_ = std::pow(std::max(rate_, 1e-6), 0.8);  // may have grown since it was seen
+      rate_ = std::pow(std::max(rate_, 1e-6), 0.8);  // may have grown since it was measured
     }
     enough = size * std::min(1.0, rate_ / std::max(1e-3, 1 - rate_)) <= 1;
     before = size;
@@ -271,10 +271,10 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   trouble_.clear();
   if (step.from.memory.h == 0 && !soften_start(system, h, step.from, eq)) return false;
   Weights w = predict(h, step.from, to);
-  if (w.q > 2 * kept_.q || w.q < 0.5 * kept_.q) rate_ = 1, tired_ = tired_ || lent_;  // a lent factor serves like steps only
+  if (w.q > 2 * kept_.q || w.q < 0.5 * kept_.q) rate_ = 1, tired_ = tired_ || lent_;  // a borrowed factor is valid only for similar steps
   if (!iterate(system, w, to, eq)) {
     if (!trouble_.empty() || !factored_) return false;
-    tired_ = true;  // the factor was old: once more with a new one
+    tired_ = true;  // the factor was old: retry with a new one
     w = predict(h, step.from, to);
     if (!iterate(system, w, to, eq)) return false;
   }
@@ -284,7 +284,7 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   return to.state.y.allFinite() && to.dy.allFinite() && step.error.allFinite();
 }
 
-// What forces of dependent rows share is not settled by the step: taken on from one to the next, it would grow without bound.
+// The step does not determine how forces of dependent rows are shared: carried over from step to step, this part would grow without bound.
 void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
   factor(system, to.state.y, eq);
   if (!eq.regular) return;
@@ -314,9 +314,9 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
   for (Index i = system.z_begin(); i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }
 
-// e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. Once leaves of a ring at hω ≫ 1 its displacement, which
-// counts where it is above the tolerance; of its speed, which the scheme takes away, once would leave so much that the
-// step is drawn down to where the ring must be followed for good: those are filtered twice.
+// e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. Of an oscillation with hω ≫ 1, one application keeps the displacement,
+// which counts if it is above the tolerance. Of its speed, which the scheme damps, one application would leave so much that the step would
+// be reduced until it resolves the oscillation permanently: speeds are filtered twice.
 void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equations& eq) {
   work_ = e;
   for (int i = 0; i < times; ++i) {
@@ -330,8 +330,8 @@ void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equa
   e = work_;
 }
 
-// What the step has against the integrals of the parabola through v̇ at three nodes; at a start, which knows two, the one that
-// leaves it with v̇₀ and no slope: the trapezoid's error is not seen by a line.
+// Difference between the step and the integrals of the parabola through v̇ at three nodes. At a start, with two nodes, the parabola that
+// begins at v̇₀ with zero slope: a straight line would not show the error of the trapezoidal rule.
 void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   const Index n = system.n();
   const double h = step.h, h0 = step.from.memory.h;
@@ -350,8 +350,8 @@ void Alpha::estimate(const System& system, Step& step, Equations& eq) {
   for (int i = 0; i < 2; ++i) filter_internal_states(system, step.to.state, eq, kept_.s, x);
 }
 
-// With F the forces and P = M v̇ at both ends and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system
-// changes by ½h(s₀ + s₁)·½(P₀ + P₁) − Δq·½(F₀ + F₁) + ½(s₀ + s₁)·M w more than the trapezoid of its powers says.
+// With the forces F and P = M v̇ at both ends and w = Δs − ½h(v̇₀ + v̇₁), the energy of a linear system changes by ½h(s₀ + s₁)·½(P₀ + P₁) −
+// Δq·½(F₀ + F₁) + ½(s₀ + s₁)·M w more than the trapezoidal rule for its powers gives.
 void Alpha::book_loss(const System& system, const Equations& eq, Step& step) {
   const Index n = system.n();
   const double h = step.h;

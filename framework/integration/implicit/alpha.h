@@ -9,9 +9,8 @@
 
 namespace pintle {
 
-/// Coefficients of the generalised-α scheme [ChungHulbert1993] with the spectral radius ρ at infinite frequency.
-/// Second order, unconditionally stable for 0 ≤ ρ ≤ 1; ρ = 1 loses nothing, ρ = 0 takes away what is
-/// infinitely fast in one step.
+/// Coefficients of the generalised-α scheme [ChungHulbert1993] with the spectral radius ρ at infinite frequency. Second order,
+/// unconditionally stable for 0 ≤ ρ ≤ 1; ρ = 1 has no numerical damping, ρ = 0 removes infinitely fast motion in one step.
 struct AlphaWeights {
   explicit AlphaWeights(double rho);
   double m, f, beta, gamma;
@@ -23,33 +22,33 @@ struct AlphaWeights {
 ///   M(q₁) v̇₁ + Cqᵀλ₁ = f(q₁, s₁),  C(q₁) = 0,
 ///   q₁ = q₀ + h s₀ + h² ((½ − β) a₀ + β a₁) + p,   s₁ = s₀ + h ((1 − γ) a₀ + γ a₁),
 ///   (1 − α_m) a₁ + α_m a₀ = (1 − α_f) v̇₁ + α_f v̇₀.
-/// Internal states x are stepped as s is [JansenWhitingHulbert2000]; at each iterate they are solved for, owner by owner.
-/// The stabilised index 2: λ serves Ċ(q₁, s₁) = 0, and p, small as h³, C = 0, by the shortest way in the metric of
-/// the iteration matrix, which leaves stiff directions alone. Theory: docs/theory/implicit.md.
+/// Internal states x are integrated as s is [JansenWhitingHulbert2000]; in each iteration they are solved for, owner by owner. Stabilised
+/// index-2 form: λ enforces Ċ(q₁, s₁) = 0, and p, of order h³, enforces C = 0 by projection in the metric of the iteration matrix, which
+/// does not excite stiff directions. Theory: docs/theory/implicit.md.
 class Alpha {
  public:
-  /// @param tolerance  of the step's error: Newton stops well below it. 0: to rounding
+  /// @param tolerance  of the step's error: Newton stops well below it. 0: iterates to rounding
   Alpha(const System&, const Equations&, double rho, double tolerance);
 
-  /// Brings y onto the constraints, evaluates there and forgets: a start. @returns false at a singular pose
+  /// Projects y onto the constraints, evaluates there and discards the memory: a start. @returns false in a singular configuration
   bool project(const System&, Instant&, Equations&);
-  /// As Stages::attempt. step.error is the local error, filtered through the iteration matrix so that
-  /// what the scheme damps does not count. @returns false if Newton does not converge; see trouble()
+  /// As Stages::attempt. step.error is the local error, filtered through the iteration matrix so that motion damped by the scheme does not
+  /// count. @returns false if Newton does not converge; see trouble()
   bool attempt(const System&, double h, Step&, Equations&);
-  /// Newton begins as that of another, with its judgement and its factor where that fits, and keeps nothing of its own.
+  /// Newton begins like that of `other`, with its convergence data and, if it fits, its factor; its own are discarded.
   void begin_beside(Alpha& other);
-  /// The state inside the step, as `interpolate`, with what bends between the nodes kept out of stiff directions.
+  /// The state inside the step, as `interpolate`, with the curvature between the nodes kept out of stiff directions.
   void interpolate_between(const System&, const Step&, double t, State& out, Equations&);
-  /// Evaluates at a state inside the step or at its end, v̇ and λ between those of the ends; changes no state.
+  /// Evaluates at a state inside the step or at its end, with v̇ and λ between those of the ends; changes no state.
   void evaluate_between(const System&, const Step&, const State&, Equations&);
-  /// Newton judges lengths by this, speeds by that. [m], [m/s]
+  /// Scales for lengths and speeds in Newton's convergence test. [m], [m/s]
   void validate_by(double length, double speed) { length_ = length, speed_ = speed; }
 
   static constexpr int order = 2;
   const std::string& trouble() const { return trouble_; }
   long iterations() const { return iterations_; }
 
-  /// What the next steps depend on besides the nodes, exactly.
+  /// The data besides the nodes that the next steps depend on, exactly.
   template <class A>
   void archive(A& x) {
     x(PINTLE_MEMBERS(rate_, tired_, kept_, factored_, iterations_));
@@ -62,7 +61,7 @@ class Alpha {
 
  private:
   struct Weights {
-    double q = 0, s = 0;  ///< of v̇₁ in q₁ and s₁: h² β(1 − α_f)/(1 − α_m), h γ(1 − α_f)/(1 − α_m)
+    double q = 0, s = 0;  ///< derivatives of q₁ and s₁ with respect to v̇₁: h² β(1 − α_f)/(1 − α_m), h γ(1 − α_f)/(1 − α_m)
     template <class A>
     void archive(A& x) {
       x(PINTLE_MEMBERS(q, s));
@@ -96,20 +95,20 @@ class Alpha {
 
   AlphaWeights weights_;
   double tolerance_, length_, speed_ = 0;
-  int loss_ = -1;         ///< the integral that takes what the scheme loses; −1: none
-  Eigen::VectorXd unit_;  ///< of each coordinate, for a length of 1 m
+  int loss_ = -1;         ///< the integral that accounts for numerical dissipation; −1: none
+  Eigen::VectorXd unit_;  ///< scale of each coordinate, for a length of 1 m
   Tangent tangent_;
   Kkt kkt_;
-  Eigen::MatrixXd border_, border_lambda_, W_;  ///< v̇ and λ by 1 N of friction, by the factor; what they do to slips
-  Kkt* lent_ = nullptr;                         ///< another's factor, used in place of kkt_'s until a new one is made
+  Eigen::MatrixXd border_, border_lambda_, W_;  ///< v̇ and λ due to 1 N of friction, by the factor; their effect on slips
+  Kkt* lent_ = nullptr;                         ///< borrowed factor, used instead of kkt_'s until a new one is made
   std::vector<double> values_;
   Eigen::VectorXd q_base_, s_base_, p_;  ///< q₁ = q_base + w.q v̇₁ + p, [s₁; x₁] = s_base + w.s [v̇₁; ẋ₁]
-  Eigen::VectorXd start_;                ///< [v̇; ẋ] at a start, as the step takes them
-  Eigen::VectorXd own_;                  ///< of the scheme at the step's begin, as Memory::a
+  Eigen::VectorXd start_;                ///< [v̇; ẋ] at a start, as used by the step
+  Eigen::VectorXd own_;                  ///< the scheme's own at the step's begin, as Memory::a
   Eigen::VectorXd dv_, dp_, mu_, work_;
-  double rate_ = 1;                       ///< contraction of Newton's iteration, as last seen
-  bool tired_ = true, factored_ = false;  ///< the factor should be made again; there is one
-  Weights kept_;                          ///< of the factor
+  double rate_ = 1;                       ///< contraction of Newton's iteration, as last measured
+  bool tired_ = true, factored_ = false;  ///< the factor should be renewed; there is one
+  Weights kept_;                          ///< the weights used in the factor
   long iterations_ = 0;
   std::string trouble_;
 };

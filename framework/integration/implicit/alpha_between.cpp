@@ -1,4 +1,4 @@
-// Generalised-α between the nodes of a step: what rows, frames and readings see.
+// Generalised-α between the nodes of a step: for rows of results, frames and samples.
 #include "framework/dynamics/equations/internal.h"
 #include "framework/integration/dense_output.h"
 #include "framework/integration/implicit/alpha.h"
@@ -31,8 +31,8 @@ void Alpha::interpolate_between(const System& system, const Step& step, double t
   if (system.n_x() > 0) interpolate_internal(system, step, x, out, eq);
 }
 
-// The cubic's bend of a stiff coordinate is h s, of which ω² makes a force that never was: it goes through the
-// iteration matrix, as steps do.
+// For a stiff coordinate the cubic's curvature is of size h s, which times ω² gives a spurious force: it is filtered through the iteration
+// matrix, as steps are.
 void Alpha::soften_bend(const System& system, const Step& step, double x, State& out, Equations& eq) {
   const Index n = system.n();
   work_ = (1 - x) * step.from.state.y.head(n) + x * step.to.state.y.head(n);
@@ -48,8 +48,9 @@ void Alpha::soften_bend(const System& system, const Step& step, double x, State&
   out.y.head(n) += dp_;
 }
 
-// Interpolated by itself, x would be off from what it follows by the interpolation's error, of which a stiff law makes a force. So its
-// rate here is to be what it is between the nodes: where the law is stiff it follows the pose, else it stays as interpolated.
+// If x were interpolated on its own, it would deviate from the motion by the interpolation error, which a stiff law turns into a force. So
+// x is chosen such that its rate is the one interpolated between the nodes: where the law is stiff it follows the configuration, otherwise
+// it stays as interpolated.
 void Alpha::interpolate_internal(const System& system, const Step& step, double x, State& out, Equations& eq) {
   const Index n_x = system.n_x(), begin = system.x_begin();
   pose(system, out.t, out.y, eq);

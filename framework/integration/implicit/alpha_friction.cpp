@@ -1,4 +1,4 @@
-// Generalised-α with dry friction that the accelerations decide: bordered onto the factor of Newton's matrix.
+// Generalised-α with dry friction that the accelerations determine: added as a border to the factor of Newton's matrix.
 #include <algorithm>
 
 #include "framework/common/worse.h"
@@ -10,7 +10,7 @@ namespace pintle {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Friction that the accelerations decide, beside the rows that the factor knows: what a newton of each of it does.
+// Response to 1 N of each friction force that the accelerations determine, in addition to the rows in the factor.
 void Alpha::border(const System& system, Equations& eq) {
   const auto count = static_cast<Index>(eq.sticking.of.size());
   border_.resize(system.n(), count), border_lambda_.resize(system.n_rows(), count), W_.resize(count, count);
@@ -25,7 +25,8 @@ void Alpha::border(const System& system, Equations& eq) {
   W_ = J.transpose() * border_;
 }
 
-// The forces that, with what Newton does to speeds and multipliers, leave no slip of what sticks and are what presses asks of what slides.
+// The forces that, together with Newton's change of speeds and multipliers, leave no slip where it sticks, and match the normal force where
+// it slides.
 bool Alpha::correct_friction(const System& system, double weight, State& state, Memory& memory, Equations& eq) {
   if (border_.cols() == 0) return true;
   const VectorXd before = forces(state, eq), asked = -slips(system, eq) / weight - eq.sticking.J.transpose() * dv_;
@@ -37,18 +38,18 @@ bool Alpha::correct_friction(const System& system, double weight, State& state, 
   return true;
 }
 
-// Largest slip that what sticks could take away, over the mechanism's length and fastest angular rate.
+// Largest slip that sticking forces could remove, relative to the mechanism's length and fastest angular rate.
 double Alpha::slip_violation(const System& system, const State& state, const Equations& eq) const {
   if (border_.cols() == 0) return 0;
   return largest(W_ * holding_forces(system, eq, W_, slips(system, eq))) / (system.length * fastest_rate(system, state.y));
 }
 
-// x with these slips of what sticks.
+// Corrects x to these slips of what sticks.
 void Alpha::keep_slip(const System& system, const Equations& eq, const VectorXd& slips, VectorXd& x) const {
   x -= border_ * holding_forces(system, eq, W_, eq.sticking.J.transpose() * x - slips);
 }
 
-// As share_out, of what could hold in one another's stead.
+// Redistributes, as share_out does, forces that could replace one another.
 void Alpha::share_out_friction(const System& system, Instant& to, Equations& eq) {
   if (std::ranges::count(eq.sticking.of, true, &Sticking::Column::holds) < 2) return;
   const VectorXd before = forces(to.state, eq), change = friction_change(system, to.state, eq, {W_, border_lambda_}, Shares::all,

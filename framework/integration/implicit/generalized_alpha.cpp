@@ -25,8 +25,8 @@ bool GeneralizedAlpha::attempt(double h, const ErrorNorm& norm, Step& step, Equa
   return alpha_.attempt(system_, h, step, eq);
 }
 
-// A step much longer than a period shows its error as a part of it only: the first is so short that nothing moves by more than
-// the tolerance, and the next, each five times as long at most, see what was resolved before them.
+// In a step much longer than a period only part of the error is visible: the first step is so short that nothing moves by more than the
+// tolerance, and the next ones, each at most five times as long, use what was resolved before them.
 double GeneralizedAlpha::first_step(const Instant& start, const ErrorNorm& norm, double left) const {
   const double fastest = norm.fastest_speed(start.state.y);
   if (!(fastest > 0)) return std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ double GeneralizedAlpha::first_step(const Instant& start, const ErrorNorm& norm,
 
 void GeneralizedAlpha::interpolate(const Step& step, double t, State& out) const { interpolate_cubic(system_, step, t, out); }
 
-// A true step where that can be made: forces of stiff springs are in balance at its end, not between nodes.
+// A true step where possible: stiff spring forces are in balance at its end, but not between nodes.
 bool GeneralizedAlpha::sample(const Step& step, double t, Equations& eq, State& out) {
   if (!reading_) reading_ = std::make_unique<Reading>(Reading{Alpha(system_, eq, rho_, tolerance_), {}});
   auto& [alpha, part] = *reading_;

@@ -33,7 +33,7 @@ class GeneralizedAlpha final : public Stepper {
   void evaluate_end(const Step& step, Equations& eq) override { alpha_.evaluate_between(system_, step, step.to.state, eq); }
 
  private:
-  /// Has a Newton iteration of its own, so that readings change neither the steps nor each other.
+  /// Has its own Newton iteration, so that samples affect neither the steps nor each other.
   struct Reading {
     Alpha alpha;
     Step part;
@@ -43,7 +43,7 @@ class GeneralizedAlpha final : public Stepper {
   double rho_, tolerance_;
   StepperTraits traits_;
   Alpha alpha_;
-  std::unique_ptr<Reading> reading_;  ///< from the first sample on
+  std::unique_ptr<Reading> reading_;  ///< created at the first sample
 };
 
 }  // namespace pintle

@@ -32,7 +32,7 @@ void MiddleContacts::look(const State& from, const State& middle, double h) {
   }
 }
 
-// It, or the pair from whose pieces it comes onto its own, was pressed in the step before.
+// This pair, or one that the contact comes from, was under load in the step before.
 bool MiddleContacts::continues(int c, const State& from) const {
   const auto pressed = [&](int contact) { return contact >= 0 && from.impact_rate[at(contact)] > 0; };
   return pressed(c) || std::ranges::any_of(system_.contacts[at(c)].beyond, pressed);

@@ -38,7 +38,7 @@ bool MoreauJean::project(Instant& node, Equations& eq) {
   return true;
 }
 
-// From q to q + h/2 s; there, under forces, joints and contacts, s to s⁺; on to q + h/2 (s + s⁺).
+// From q to q + h/2 s; there, under forces, joints and contacts, s to s⁺; then to q + h/2 (s + s⁺).
 bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) {
   const Index n = system_.n();
   const State& from = step.from.state;
@@ -58,7 +58,7 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   pose(system_, middle_.t, middle_.y, eq);
   factor(system_, middle_.y, eq);
   if (!eq.regular) return false;
-  for (int i = 0; i < 2; ++i) {  // what depends on speeds, with those of the middle
+  for (int i = 0; i < 2; ++i) {  // speed-dependent quantities, with the speeds of the midpoint
     middle_.y.segment(n, n) = from.y.segment(n, n) + (i == 0 ? VectorXd(VectorXd::Zero(n)) : VectorXd(h / 2 * eq.a));
     speed(system_, middle_.t, middle_.y, eq);
     accelerate(system_, middle_, eq);
@@ -80,11 +80,11 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   return step.to.dy.allFinite();
 }
 
-// Impulses of the contacts that are closed in the middle: Newton's law for the opening speeds and slips at the start and at the end of the
-// step, which are those in the middle but for what J turns in half a step. Of a contact that goes on, what the step before has left of its gap,
-// by the third power of h, is given to the speed at the end, and is no approach in the step after.
+// Impulses of the contacts that are closed at the midpoint: Newton's law for the opening speeds and slips at the start and end of the step,
+// which are those at the midpoint corrected for the rotation of J in half a step. For a continuing contact, the gap left by the step
+// before, of order h³, is added to the speed at the end and does not count as approach speed in the next step.
 bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, State& to, Equations& eq) {
-  constexpr double rounding = 1e-10;  // of the speeds that meet
+  constexpr double rounding = 1e-10;  // relative to the approach speeds
   std::ranges::fill(given_now_, 0.0);
   std::ranges::fill(left_, std::numeric_limits<double>::infinity());
   std::ranges::fill(to.impact_rate, 0.0);
@@ -112,7 +112,7 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
     closing[k] += given_now_[c];
   }
   auto x = newton_impulses(system_, closed, e, W, meeting, closing);
-  if (!x) {  // bodies wedged between others cannot all part as e says
+  if (!x) {  // bodies wedged between others cannot all part with restitution e
     std::ranges::fill(e, 0.0);
     x = newton_impulses(system_, closed, e, W, meeting, closing);
   }
@@ -139,12 +139,13 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
   return true;
 }
 
-// Bodies that overlap at the end of the step and stay, as an impact without restitution leaves them, go apart by the shortest way in the
-// metric of M, none into another that was closed: the impact has taken too much by what that lifts. Wedged ones stay as they are.
+// Bodies that overlap and stay in contact at the end of the step, as after an impact without restitution, are separated by the smallest
+// displacement in the metric of M, without pushing one into another that was closed. The energy this adds was removed in excess by the
+// impact. Wedged bodies stay as they are.
 bool MoreauJean::push_apart(Instant& end, Equations& eq) {
   constexpr int most = 3;
   State apart = end.state;
-  VectorXd worked = VectorXd::Zero(static_cast<Index>(system_.contacts.size()));  // by each contact, but for a factor
+  VectorXd worked = VectorXd::Zero(static_cast<Index>(system_.contacts.size()));  // by each contact, up to a factor
   double balance = 0;
   bool pushed = false;
   for (int i = 0; i < most; ++i) {
@@ -186,7 +187,7 @@ bool MoreauJean::push_apart(Instant& end, Equations& eq) {
   return true;
 }
 
-// By the trapezoidal rule, but for what impulses have booked.
+// By the trapezoidal rule, except what impulses have recorded.
 void MoreauJean::book_rates(Step& step) const {
   for (std::size_t i = 0; i < system_.integrals.size(); ++i) {
     const Account account = system_.integrals[i].account;
@@ -196,13 +197,13 @@ void MoreauJean::book_rates(Step& step) const {
   }
 }
 
-// What is missing of the balance is lost to the scheme.
+// The remaining difference in the energy balance is attributed to the scheme.
 void MoreauJean::book_loss(State& state, const Equations& eq) const {
   const auto scheme = std::ranges::find(system_.integrals, Account::scheme, &Integral::account) - system_.integrals.begin();
   state.y[system_.z_begin() + scheme] += balance_ - energies(system_, state, eq).balance();
 }
 
-// Places and speeds between the ends of a step are known no better than to its first order.
+// Positions and speeds between the ends of a step are accurate only to first order.
 void MoreauJean::interpolate(const Step& step, double t, State& out) const {
   const double x = (t - step.from.state.t) / step.h;
   out.t = t;

@@ -5,9 +5,9 @@
 
 namespace pintle {
 
-/// Moreau's and Jean's scheme for rigid contacts: steps of one length, each from the middle of the step before to that of its own, over
-/// which forces and impacts act together, as impulses by Newton's law of restitution. It does not look for the instants of impacts and so
-/// passes any number of them in a step; its error is of first order in the step. Theory and sources: docs/theory/impact.md.
+/// Moreau and Jean's scheme for rigid contacts: steps of fixed length, each from the midpoint of the step before to its own midpoint, over
+/// which forces and impacts act together, as impulses by Newton's law of restitution. It does not locate impacts in time and can pass any
+/// number of them in a step; its error is of first order in the step. Theory and sources: docs/theory/impact.md.
 class MoreauJean final : public Stepper {
  public:
   static constexpr std::string_view method = "moreau";
@@ -44,9 +44,9 @@ class MoreauJean final : public Stepper {
   State middle_;
   MiddleContacts contacts_;
   std::string trouble_;
-  std::vector<double> given_, given_now_;  ///< closing speeds that contacts were given for their gaps, in the step before and in this [m/s]
-  std::vector<double> left_;               ///< the most that those that stay may overlap, for the next step's speeds to take back [m]
-  double balance_ = 0;                     ///< of the books, which the integral of what the scheme loses keeps [J]
+  std::vector<double> given_, given_now_;  ///< closing speeds that correct gaps, in the step before and in this one [m/s]
+  std::vector<double> left_;               ///< largest allowed overlap of lasting contacts; the next step corrects it [m]
+  double balance_ = 0;                     ///< energy balance kept by the integral of numerical losses [J]
 };
 
 }  // namespace pintle

@@ -16,7 +16,7 @@ namespace {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
-  std::vector<std::string> known{std::string(vocabulary.variable), "pi"}, all;  // which may be listed; and units and signals besides
+  std::vector<std::string> known{std::string(vocabulary.variable), "pi"}, all;  // names to list in messages; and also units and signals
   for (const auto& [parameter, value] : vocabulary.parameters) known.push_back(parameter);
   if (vocabulary.signals)
     for (const auto& [signal, what] : *vocabulary.signals) (signal.find('.') == std::string::npos ? known : all).push_back(signal);
@@ -203,7 +203,7 @@ std::string fault_of_name(std::string_view name) {
   if (name == "t") return "t is the time; choose another name";
   if (name == "pi") return "pi is a constant; choose another name";
   if (name == "present") return "present is what a length or angle is at the start; choose another name";
-  // Single letters stand for many things: where a scene calls something F, that is what F is there, and no farad.
+  // Single letters have many meanings: if a scene defines F, it means that there, and not farad.
   if (const Unit* unit = find_unit(name); unit && unit->dimension.current == 0)
     return std::string(name) + " is a unit; choose another name";
   if (is_function(name)) return std::string(name) + " is a function; choose another name";

@@ -46,7 +46,7 @@ void must_be_number(Op op, const Dimension& a) {
   if (!same(a, dimension::number)) throw ExpressionError(std::string(word_for(op)) + " needs a number or an angle, not " + describe(a));
 }
 
-// a·b, or a/n where b is 1/n: so that 10 us is 1e-5 to the last bit.
+// a·b, or a/n where b is 1/n, so that 10 us is 1e-5 to the last bit.
 double product_to_the_bit(double a, double b) {
   const double n = std::round(1 / b);
   return b > 0 && b < 1 && n < 1e15 && b == 1 / n ? a / n : a * b;
@@ -165,7 +165,7 @@ Dimension Formula::dimension_of(Op op, const Term& a, const Term& b) const {
     must_be_number(op, db);
     return dimension::number;
   }
-  // A bare zero is zero in every unit.
+  // Zero without a unit is valid in every unit.
   const auto zero = [](const Term& x) { return x.op == Op::constant && x.value == 0 && bare(x.dimension); };
   if (!same(da, db) && !zero(a) && !zero(b)) mixed(op, da, db);
   if (op >= Op::less && op <= Op::unequal) return dimension::number;
@@ -180,7 +180,7 @@ Program Formula::program(int root) const {
   return p;
 }
 
-// Returns how many operands are on the stack at most while term i is worked out.
+// Returns the largest number of operands on the stack while term i is evaluated.
 int Formula::write(int i, std::vector<Program::Instruction>& code) const {
   constexpr std::size_t longest = 20'000;
   if (code.size() > longest) throw ExpressionError("it is too long when written out: name parts of it in parameters");

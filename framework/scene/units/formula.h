@@ -9,10 +9,10 @@
 
 namespace pintle {
 
-/// An expression that cannot be read; says what is wrong and what to write instead.
+/// An expression that cannot be read; the message says what is wrong and what to write instead.
 struct ExpressionError : std::runtime_error {
   explicit ExpressionError(const std::string& what, std::size_t character = 0) : std::runtime_error(what), at(character) {}
-  std::size_t at;  ///< the character of the text that it is about, from 1; 0: the whole
+  std::size_t at;  ///< the character of the text that is wrong, from 1; 0: the whole text
 };
 
 /// A number with its dimension; SI.
@@ -56,35 +56,33 @@ enum class Op : unsigned char {
   choose,  // three: condition, then, else
   sign,
   deadband,
-  saturate,  // words of the language that a formula writes out by the others
+  saturate,  // functions of the language that are expressed by the others
 };
 
-/// A formula in t and in inputs as a stack machine over jets: value, rate and acceleration are exact, by the
-/// rules of differentiation. No allocation and no shared state: safe to call from many threads.
+/// A formula in t and inputs, as a stack machine over jets: value, rate and acceleration are exact, by the rules of differentiation. No
+/// allocation and no shared state: safe to call from many threads.
 struct Program {
   struct Instruction {
     Op op;
-    double value = 0;  ///< of a constant; of an input its index
+    double value = 0;  ///< of a constant; for an input its index
   };
   static constexpr int most_stacked = 32;
-  std::vector<Instruction> code;  ///< postfix
+  std::vector<Instruction> code;  ///< in postfix order
 
   Jet operator()(double t) const { return (*this)(Jet{t, 1, 0}, nullptr); }
   Jet operator()(const Jet& t, const Jet* inputs) const;
 };
 
-/// Builds a formula term by term, judging dimensions and folding constants as it goes. A term is
-/// named by its index.
-/// @throws ExpressionError  from every member, if the dimensions do not fit or a constant is not
-/// finite
+/// Builds a formula term by term, checking dimensions and folding constants. A term is identified by its index.
+/// @throws ExpressionError  from every member, if the dimensions do not fit or a constant is not finite
 class Formula {
  public:
-  /// @param of_time  what t is taken to be: a time, or a bare number of seconds
+  /// @param of_time  dimension of t: a time, or a number of seconds
   explicit Formula(const Dimension& of_time) : of_time_(of_time) {}
 
   int constant(const Quantity&);
   int time();
-  /// A number of the motion; the same name is the same input.
+  /// A signal of the motion; the same name gives the same input.
   int input(const std::string& name, const Dimension&);
   int term(Op, int a);
   int term(Op, int a, int b);
@@ -94,7 +92,7 @@ class Formula {
 
   bool is_constant(int i) const { return terms_[index(i)].op == Op::constant; }
   Quantity quantity(int i) const { return {terms_[index(i)].value, terms_[index(i)].dimension}; }
-  /// sign(x): −1, 0 or 1. deadband(x, w): what x is beyond ±w. saturate(x, lo, hi).
+  /// sign(x): −1, 0 or 1. deadband(x, w): the part of x beyond ±w. saturate(x, lo, hi).
   int sign(int x);
   int deadband(int x, int width);
   int saturate(int x, int lo, int hi);

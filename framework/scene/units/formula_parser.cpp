@@ -8,8 +8,8 @@
 #include "framework/common/nearest.h"
 #include "framework/scene/units/unit.h"
 
-// A Pratt parser: every operator says how strongly it binds the operand to its left and the one to
-// its right; an operand between two operators belongs to the stronger side.
+// A Pratt parser: every operator has a binding strength to its left and to its right; an operand between two operators belongs to the
+// stronger side.
 namespace pintle {
 
 namespace {
@@ -41,7 +41,7 @@ constexpr int any = std::numeric_limits<int>::max();
 struct Function {
   std::string_view name;
   Op op;
-  int least, most;  // arguments; of any number, op joins one after the other
+  int least, most;  // number of arguments; if unlimited, op joins them one after the other
 };
 constexpr std::array<Function, 18> functions{{{"sin", Op::sin, 1, 1},
                                               {"cos", Op::cos, 1, 1},
@@ -74,7 +74,7 @@ const Function& function(const Word& w) {
   fail(w, "there is no function \"" + w.text + "\"" + (remedy.empty() ? "." + did_you_mean(w.text, function_names()) : ": " + remedy));
 }
 
-// A word that begins no operand.
+// Fails at a word that cannot begin an operand.
 [[noreturn]] void misplaced(const Word& w) {
   const std::string what = w.kind == Kind::comma ? "a comma" : w.kind == Kind::close ? "a parenthesis" : "the operator " + w.text;
   fail(w, what + " stands where a value should");
@@ -96,7 +96,7 @@ class Parser {
   }
 
  private:
-  // Of expressions within one another, so that no text, however hostile, overflows the stack.
+  // Limit of nesting, so that no text, however hostile, overflows the stack.
   static constexpr int deepest = 250;
 
   bool at_end() const { return place_ == words_.size(); }
@@ -113,7 +113,7 @@ class Parser {
     return taken;
   }
 
-  // As far as operators reach that bind their left side at least so strongly.
+  // Continues while operators bind their left side at least this strongly.
   void expression(int least) {
     if (++depth_ > deepest) fail(words_[place_ - 1], "it nests too deeply: name parts of it in parameters");
     operand();

@@ -9,16 +9,14 @@
 
 namespace pintle {
 
-/// One step of working out an expression on a stack of results: it takes the last `operands` of
-/// them and leaves one.
+/// One step in the evaluation of an expression on a stack: it takes the last `operands` values and leaves one.
 struct FormulaStep {
-  const Word* word;      ///< that asks for it
-  int operands = 0;      ///< none: the word is the number or name that is wanted
+  const Word* word;      ///< its source
+  int operands = 0;      ///< none: the word is the number or name itself
   Op op = Op::constant;  ///< with operands; Op::smooth with three of them: step(x, x0, x1)
 };
 
-/// The steps of an expression, those of its operands first. Its grammar, [ ] once or not at all,
-/// { } any number of times:
+/// The steps of an expression, those of its operands first. In its grammar, [ ] means optional, { } any number of times:
 ///
 ///     expression = and {"||" and}
 ///     and        = comparison {"&&" comparison}
@@ -31,8 +29,7 @@ struct FormulaStep {
 ///     call       = function "(" [expression {"," expression}] ")"
 ///
 /// The steps point to the words, which must outlive them.
-/// @throws ExpressionError  it is no such expression, nests too deeply, names a function that there
-///                          is not, or gives one too many arguments or too few
+/// @throws ExpressionError  invalid expression, nesting too deep, an unknown function, or too many or too few arguments
 std::vector<FormulaStep> parse(std::span<const Word>);
 
 /// Names of all functions, for messages and documentation.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* how_to_write_one = "; write a comparison such as crank.angle > 30 deg, or several joined by &&";
 
-// |a| + |b| of a + b or a − b, and so of these.
+// |a| + |b| for a + b or a − b, recursively.
 void add_size(const Program& program, std::size_t last, Program& out) {
   const Op op = program.code[last].op;
   if (op == Op::add || op == Op::subtract) {
@@ -49,7 +49,7 @@ void split(const Program& program, std::size_t last, std::vector<Comparison>& ou
   out.push_back({std::move(difference), std::move(size), op == Op::at_most || op == Op::at_least});
 }
 
-// All values of a difference.
+// The range of a difference.
 Range range_of(const Program& program, double until) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::array<RangeJet, Program::most_stacked> stack;

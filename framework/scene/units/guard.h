@@ -6,19 +6,19 @@
 
 namespace pintle {
 
-/// One comparison as a function that is above zero where it holds: what is greater less what is less.
+/// One comparison as a function that is positive where it holds: greater side minus lesser side.
 struct Comparison {
   Program difference;
-  Program size;          ///< the sum of what is compared, in magnitude
-  bool at_zero = false;  ///< holds where the difference is 0
+  Program size;          ///< the sum of the magnitudes compared
+  bool at_zero = false;  ///< true where the difference is 0
 };
 
-/// A condition, one comparison or several joined by &&, as all of these.
-/// @throws ExpressionError  it is no such condition
+/// A condition, one comparison or several joined by &&, as a list of these.
+/// @throws ExpressionError  it is not such a condition
 std::vector<Comparison> comparisons(const Program&);
 
-/// What can be told of a condition whatever its signals are, in times from 0 to `until`: from bounds of each comparison, and from two
-/// that ask one thing to be above and below.
+/// What is known of a condition for any signals, at times from 0 to `until`: from bounds of each comparison, and from pairs that require a
+/// quantity to be both above and below.
 enum class Known { open, never, always };
 Known known_of(const std::vector<Comparison>&, double until);
 

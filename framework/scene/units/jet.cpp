@@ -37,7 +37,7 @@ Jet exponential(const Jet& x) {
 Jet raised(const Jet& x, const Jet& n) {
   if (n.rate != 0 || n.accel != 0) return exponential(times(n, logarithm(x)));
   const double p = n.value, f = std::pow(x.value, p);
-  // x⁰ and x¹ have no second derivative, also at x = 0.
+  // x⁰ and x¹ have a zero second derivative, also at x = 0.
   const double f1 = p == 0 ? 0 : p * std::pow(x.value, p - 1);
   const double f2 = p == 0 || p == 1 ? 0 : p * (p - 1) * std::pow(x.value, p - 2);
   return chain(x, f, f1, f2);

@@ -5,8 +5,8 @@
 
 namespace pintle {
 
-/// One operand; the chain rule carried to second order. Cannot fail: outside its domain a function
-/// gives NaN, as in <cmath>. At the kink of abs the right-hand derivative is taken.
+/// One operand; the chain rule to second order. Cannot fail: outside its domain a function gives NaN, as in <cmath>. At the kink of abs the
+/// right-hand derivative is used.
 Jet apply(Op, const Jet&);
 
 /// Two operands. Comparisons give 1 or 0 with zero rates; min and max take the derivatives of the

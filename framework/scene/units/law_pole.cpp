@@ -10,13 +10,13 @@ namespace pintle {
 
 namespace {
 
-constexpr double narrowest_at_pole = 1e-14;  // of the run: no interval is divided further
-constexpr int most_looks = 40'000;           // looked at for one law
+constexpr double narrowest_at_pole = 1e-14;  // relative to the run: smallest interval
+constexpr int most_looks = 40'000;           // evaluations for one law
 
 bool bounded(const Range& r) { return std::isfinite(r.lo) && std::isfinite(r.hi); }
 
-/// Over the last 10⁻⁶, 10⁻⁹ and 10⁻¹² of the run towards t, a pole |t − t₀|^−p grows by 10^3p times as much in the second step
-/// as in the first, whatever is added to it; a logarithm grows as much in both.
+/// Over the last 10⁻⁶, 10⁻⁹ and 10⁻¹² of the run before t, a pole |t − t₀|^−p grows 10^3p times as much in the second step as in the first,
+/// whatever is added to it; a logarithm grows equally in both.
 bool diverges(const TimeLaw& law, double t, double until, double Jet::*part) {
   constexpr double slowest = 10;  // p > 1/3
   for (const double side : {-1.0, 1.0}) {

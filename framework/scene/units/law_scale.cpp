@@ -12,14 +12,14 @@ namespace pintle {
 
 namespace {
 
-constexpr double part = 1e-3;           // of the law's range: less is no feature
-constexpr double known_to = 1e-12;      // of its values, by rounding
-constexpr double narrowest = 1e-13;     // of the time, or of the run: no interval is divided further
-constexpr int most_intervals = 40'000;  // looked at for one law
+constexpr double part = 1e-3;           // relative to the law's range: smaller features are ignored
+constexpr double known_to = 1e-12;      // accuracy of its values, limited by rounding
+constexpr double narrowest = 1e-13;     // relative to the time, or to the run: smallest interval
+constexpr int most_intervals = 40'000;  // evaluated for one law
 
 double roundings(double t, int n) { return n * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-300); }
 
-/// A function whose sign decides what a law does: the operand of an instruction, or the difference of two, less `offset`.
+/// A function whose sign determines the branch of a law: the operand of an instruction, or the difference of two, minus `offset`.
 struct Switch {
   std::size_t instruction;
   bool two;
@@ -43,12 +43,12 @@ struct Root {
   bool step_end;
 };
 
-/// Finds where a formula's switches change sign, or touch zero.
+/// Finds where a formula's switches change sign or touch zero.
 class Roots {
  public:
   Roots(const Program& program, double until) : program_(program), until_(until) {}
 
-  /// @returns false if there are too many to find
+  /// @returns false if there are too many
   bool find() {
     for (const Switch& s : switches(program_)) {
       std::vector<Root> found;
@@ -69,7 +69,7 @@ class Roots {
  private:
   double value(const Switch& s, double t) {
     const Jet* end = jets_.run(program_, s.instruction, {t, 1, 0});
-    // The operands of an atan2 are two, of which the first decides.
+    // Of the two operands of an atan2, the first decides.
     if (program_.code[s.instruction].op == Op::atan2) return end[-2].value;
     return s.two ? end[-2].value - end[-1].value : end[-1].value - s.offset;
   }
@@ -98,7 +98,7 @@ class Roots {
     }
     return true;
   }
-  // The one root of a function that only rises or only falls from a to b, to the last digit.
+  // The single root of a monotonic function between a and b, to the last digit.
   void cross(const Switch& s, double a, double b, bool step_end, std::vector<Root>& found) {
     const double at_a = value(s, a), at_b = value(s, b);
     if (at_a != 0 && at_b != 0 && (at_a > 0) == (at_b > 0)) return;
@@ -141,7 +141,7 @@ struct Sample {
   Jet jet;
 };
 
-/// How far values lie about the line from the law's start to its end, and how large they are.
+/// Deviation of the values from the line from the law's start to its end, and their magnitude.
 class Spread {
  public:
   Spread(const TimeLaw& law, double until) : first_(law(0).value), slope_((law(until).value - first_) / until) {}
@@ -163,7 +163,7 @@ class Spread {
   double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
 };
 
-/// Samples a formula between its roots until nothing of size can be hidden between them.
+/// Samples a formula between its roots until no significant feature can be missed between samples.
 class Sampling {
  public:
   Sampling(const Program& program, const TimeLaw& law, Spread& spread) : program_(program), law_(law), spread_(spread) {}
@@ -188,8 +188,8 @@ class Sampling {
     double a, b, hidden;
     bool operator<(const Cell& other) const { return hidden < other.hidden; }
   };
-  // What the value may do in between that the rates of the samples do not show: the excess of the rate's bounds, times the time;
-  // where the samples' values show less than half of the value's bounds, as where all fall on one phase of a wave, those bounds.
+  // Largest change of the value that the sampled rates do not show: the excess of the bounds of the rate, times the time; or, if the
+  // sampled values span less than half of the bounds of the value, as when all samples fall on one phase of a wave, those bounds.
   void look(double a, double b) {
     constexpr int n = 8;
     const auto t = [&](int i) { return i == n ? b : a + (b - a) * i / n; };
@@ -216,7 +216,7 @@ class Sampling {
   std::vector<Sample> samples_;
 };
 
-/// The polynomial of fifth degree that meets two jets.
+/// The polynomial of fifth degree through two jets.
 double hermite(const Sample& from, const Sample& to, double t) {
   const double h = to.t - from.t, x = (t - from.t) / h;
   const auto share = [](const Jet& end, double away, double step) {  // of one end, at `away` of the step from it
@@ -228,8 +228,8 @@ double hermite(const Sample& from, const Sample& to, double t) {
   return share(from.jet, x, h) + share(to.jet, 1 - x, -h);
 }
 
-/// Divides [a, b] by halves until each part is the polynomial of its ends, to what counts.
-/// @returns false where that takes too many
+/// Halves [a, b] recursively until each part is the polynomial through its ends, to the accuracy needed.
+/// @returns false where that needs too many parts
 bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until,
             std::vector<double>& ends) {
   if (ends.size() > most_intervals) return false;
@@ -251,7 +251,7 @@ bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& s
   return divide(law, a, middle, samples, little, until, ends) && divide(law, middle, b, samples, little, until, ends);
 }
 
-/// The greatest value, rate and acceleration that a few looks show: what a difference is small against.
+/// The largest value, rate and acceleration in a few samples: the scale of a difference.
 Jet size_of(const TimeLaw& law, double until) {
   constexpr int looks = 32;
   Jet out;
@@ -300,7 +300,7 @@ LawScale of_formula(const Program& program, const TimeLaw& law, double until) {
   return out;
 }
 
-// Kinks of a polyline that are seen over the next samples; a spline has none.
+// Only those kinks of a polyline that matter over the next samples; a spline has none.
 LawScale of_samples(const Samples& s, bool linear, const TimeLaw& law, double until) {
   LawScale out;
   Spread spread(law, until);

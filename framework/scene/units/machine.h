@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-/// A formula of time alone, over jets or over ranges of them, as far as wanted.
+/// Evaluates a formula of time alone, over jets or over ranges of them, up to a given instruction.
 template <class Value>
 class Machine {
  public:

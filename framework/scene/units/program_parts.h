@@ -4,18 +4,18 @@
 
 #include "framework/scene/units/formula.h"
 
-/// Programs taken apart: an operand is the run of instructions that leaves it on the stack.
+/// Decomposition of programs: an operand is the sequence of instructions that leaves it on the stack.
 namespace pintle {
 
 int operand_count(Op);
-/// Where the operand begins that ends with this instruction.
+/// The first instruction of the operand that ends with this one.
 std::size_t begin_of(const Program&, std::size_t last);
 /// Instructions [from, to) as a program.
 Program part(const Program&, std::size_t from, std::size_t to);
 bool names(const Program&, Op);
-/// A comparison, or a function with a kink or with ends: abs, min, max, step.
+/// A comparison, or a function with kinks or ends: abs, min, max, step.
 bool switches(Op);
-/// Those of its comparisons and kinks that t alone decides, each as a law of time that has its breaks where they are.
+/// Those of its comparisons and kinks that depend only on t, each as a law of time with its breaks there.
 std::vector<Program> switches_of_time(const Program&);
 
 }  // namespace pintle

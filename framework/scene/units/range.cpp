@@ -33,7 +33,7 @@ Range square(const Range& a) {
   return {a.holds(0) ? 0 : std::min(x, y), std::max(x, y)};
 }
 
-// Of a function that does not fall.
+// For a non-decreasing function.
 template <class F>
 Range rising(F f, const Range& x) {
   return sound(f(x.lo), f(x.hi));
@@ -106,7 +106,7 @@ RangeJet smooth(const RangeJet& x) {
     const double s = std::clamp(v, 0.0, 1.0);
     return 30 * s * s * (1 - s) * (1 - s);
   };
-  const auto [lo, hi] = std::minmax({slope(x.value.lo), slope(x.value.hi)});  // a list: minmax of two returns references
+  const auto [lo, hi] = std::minmax({slope(x.value.lo), slope(x.value.hi)});  // list: minmax of two returns references
   return chain(x, rising(f, x.value), {lo, x.value.holds(0.5) ? slope(0.5) : hi});
 }
 

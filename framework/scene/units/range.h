@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// All values that a quantity takes over an interval of time, or more: lo ≤ x ≤ hi, perhaps infinite.
+/// Bounds of all values of a quantity over a time interval: lo ≤ x ≤ hi, possibly infinite and not always tight.
 struct Range {
   double lo = 0, hi = 0;
   double width() const { return hi - lo; }
@@ -12,13 +12,13 @@ struct Range {
 };
 Range hull(const Range&, const Range&);
 
-/// The same of a formula's value and of its first derivative in time.
+/// The same for a formula's value and its first time derivative.
 struct RangeJet {
   Range value, rate;
 };
 
-/// The rules of `apply` (jet.h) for whole intervals. Where a function jumps or has no derivative the rate is unbounded,
-/// where it has a kink the rate is that of both sides.
+/// The rules of `apply` (jet.h) for intervals. Where a function jumps or has no derivative, the rate is unbounded; at a kink, the rate
+/// includes both sides.
 RangeJet apply(Op, const RangeJet&);
 RangeJet apply(Op, const RangeJet&, const RangeJet&);
 RangeJet choose(const RangeJet& condition, const RangeJet& then, const RangeJet& otherwise);

@@ -23,7 +23,7 @@ SidedProgram::SidedProgram(Program program) : program_(std::move(program)), firs
 
 namespace {
 
-/// On which side d is, where it is zero as the operation has it.
+/// The side of d, with the operation's convention at zero.
 int natural_side(Op op, double d) {
   const bool above_at_zero = op == Op::abs || op == Op::max || op == Op::less || op == Op::at_least;
   return d > 0 || (d == 0 && above_at_zero) ? 1 : -1;
@@ -31,7 +31,7 @@ int natural_side(Op op, double d) {
 
 }  // namespace
 
-// Operands are one, or two whose difference decides.
+// One operand, or two whose difference decides.
 Jet SidedProgram::held(std::size_t i, const Jet* x, const Sides& sides) const {
   const Op op = program_.code[i].op;
   const auto look = [&](int k, double d) {
@@ -112,7 +112,7 @@ class SidedFormula final : public SidedLaw {
   std::size_t inputs_;
 };
 
-/// Marks along an axis, perhaps coming again with a period: interval i begins at mark i.
+/// Marks along an axis, possibly repeated with a period: interval i begins at mark i.
 class Marks {
  public:
   Marks(std::vector<double> at, double period) : at_(std::move(at)), period_(period) {}
@@ -123,14 +123,14 @@ class Marks {
     const auto above = std::upper_bound(at_.begin(), at_.end(), x - rounds * period_);
     return static_cast<int>(rounds) * static_cast<int>(at_.size()) + static_cast<int>(above - at_.begin()) - 1;
   }
-  /// Of the interval's length, how far x is from its nearer end.
+  /// Distance of x from the nearer end of the interval, relative to its length.
   double left(double x, int i) const {
     if (at_.empty()) return 1;
     const double a = mark(i), b = mark(i + 1);
     return std::min(x - a, b - x) / (std::isfinite(b - a) ? b - a : span());
   }
   struct Interval {
-    double begin, end, shift;  ///< less `shift` they lie in the first period
+    double begin, end, shift;  ///< minus `shift` they are in the first period
   };
   Interval bounds(int i) const {
     const int n = static_cast<int>(at_.size());
@@ -153,7 +153,7 @@ class Marks {
   double period_;
 };
 
-/// Of a table: kinks and ends, which are exact, and ends of smooth pieces between them.
+/// Of a table: kinks and ends, which are located exactly, and ends of smooth pieces between them.
 struct TableMarks {
   std::vector<double> exact, pieces;
 };
@@ -220,7 +220,7 @@ class SidedTable final : public SidedLaw {
   Marks exact_, pieces_;
 };
 
-/// Its switches: those of either formula, then the lines of the grid along either axis, where it has kinks.
+/// Its switches: those of both formulas, then the grid lines along both axes, where it has kinks.
 class SidedMap final : public SidedLaw {
  public:
   explicit SidedMap(const SignalMap& of)
@@ -259,7 +259,7 @@ class SidedMap final : public SidedLaw {
 
  private:
   std::size_t at_line(std::size_t axis) const { return static_cast<std::size_t>(line_) + axis; }
-  /// What an axis is read at; `of` is of all switches.
+  /// The argument of an axis; `of` covers all switches.
   double over(std::size_t axis, double t, const double* in, SidedProgram::Sides of) const {
     const int first = axis == 0 ? 0 : second_;
     if (of.held) of.held += first;

@@ -9,20 +9,20 @@
 
 namespace pintle {
 
-/// A formula whose comparisons and kinks, as far as they depend on its inputs, are held on sides: −1 where what they compare, or their
-/// operand, is below zero, else 1. Those of t alone are known beforehand, and are not held.
+/// A formula whose comparisons and kinks, as far as they depend on its inputs, are held on sides: −1 where the difference compared, or the
+/// operand, is negative, otherwise 1. Those of t alone are known beforehand and are not held.
 class SidedProgram {
  public:
   explicit SidedProgram(Program);
   int switches() const { return switches_; }
-  /// Each side that is held, and what comes out: the sides found, and how far each is from its end; nullptr: not wanted.
+  /// The sides that are held, and the output: the sides found, and the distance of each from its end; nullptr: not wanted.
   struct Sides {
-    const int* held = nullptr;  ///< nullptr: each is as it is found
+    const int* held = nullptr;  ///< nullptr: each is determined anew
     int* found = nullptr;
     double* left = nullptr;
   };
   Jet run(const Jet& t, const Jet* in, const Sides&) const;
-  /// With derivatives in its first `inputs` inputs.
+  /// With derivatives with respect to its first `inputs` inputs.
   double value(double t, const double* in, std::size_t inputs, double* slope, const Sides&) const;
 
  private:
@@ -32,7 +32,7 @@ class SidedProgram {
   int switches_ = 0;
 };
 
-/// A law of signals by its sides, of a formula, a table or a map over such; nullptr: it is smooth, or nothing is known of how it is made.
+/// A law of signals with its sides, for a formula, a table or a map of formulas; nullptr: it is smooth, or its definition is unknown.
 std::shared_ptr<const SidedLaw> sided(const SignalFunction&);
 
 }  // namespace pintle

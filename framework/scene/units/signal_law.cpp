@@ -33,7 +33,7 @@ Ends ends_of_table(const SignalTable& of) {
   return std::visit([](const auto& table) { return Ends{table.samples().t.front(), table.samples().t.back()}; }, of.table);
 }
 Ends ends_of_numbers(const std::vector<double>& x) { return {x.front(), x.back()}; }
-// A rounding beyond an end is not beyond it.
+// A value beyond an end by rounding only does not count as beyond it.
 bool is_beyond(const Ends& ends, double x) {
   const double rounding = 1e-12 * std::max(std::abs(ends[0]), std::abs(ends[1]));
   return !(x >= ends[0] - rounding && x <= ends[1] + rounding);
@@ -93,7 +93,7 @@ std::string beyond_its_table(const SignalFunction& law, double t, const double* 
   return "";
 }
 
-// What the ends of a spline do dies away by 0.27 a sample: after so many before and behind, below the last digit.
+// The effect of the ends of a spline decays by a factor 0.27 per sample: after this many it is below the last digit.
 SignalTable periodic_table(Samples samples, bool linear, SignalFormula over) {
   constexpr std::size_t many = 30;
   const double begin = samples.t.front(), period = samples.t.back() - begin;

@@ -7,11 +7,11 @@
 #include "framework/scene/scene.h"
 #include "framework/scene/units/spelling.h"
 
-/// The vocabulary of signals: numbers of the motion by the names that trajectory.csv gives its columns, "crank.angle",
-/// "slider.P.vx", "coil.length". docs/scene.md, "Signals".
+/// The vocabulary of signals: quantities of the motion by their column names in trajectory.csv, "crank.angle", "slider.P.vx",
+/// "coil.length". docs/scene.md, "Signals".
 namespace pintle {
 
-/// What a name stands for, of the points a and b.
+/// The meaning of a name, for the points a and b.
 struct SignalWord {
   enum What {
     x,
@@ -25,11 +25,11 @@ struct SignalWord {
     length,
     length_rate,  ///< between a and b [m], [m/s]
     relative_angle,
-    relative_speed,  ///< direction of b less that of a [rad], [rad/s]
+    relative_speed,  ///< direction of b minus that of a [rad], [rad/s]
     travel,          ///< of b along a's direction [m]
-    state,           ///< `index` among the scene's
+    state,           ///< `index` among the scene's own states
     output,          ///< likewise
-    column,          ///< of trajectory.csv: what the accelerations decide
+    column,          ///< of trajectory.csv: quantities that depend on the accelerations
   };
   What what;
   Dimension dimension;
@@ -37,10 +37,10 @@ struct SignalWord {
   int index = 0;
 };
 
-/// Every signal of a scene, in its present form: more are known as more of it is read.
+/// All signals of a scene as read so far: more are known as more of it is read.
 std::map<std::string, SignalWord, std::less<>> signal_words(const Scene&);
 
-/// How they may stand in an expression: in what acts on the motion no outputs, and nothing that accelerations decide.
+/// Where they are used: expressions that act on the motion may contain no outputs and nothing that depends on the accelerations.
 enum class SignalUse { acts, written };
 SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>&, SignalUse);
 

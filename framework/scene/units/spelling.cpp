@@ -19,13 +19,13 @@ constexpr std::size_t longest_text = 2000;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-// The text in ASCII, and of each of its characters the place in the text as written, from 1.
+// The text in ASCII, and for each of its characters the position in the original text, from 1.
 struct Plain {
   std::string text;
   std::vector<std::size_t> at;
 };
 
-// Characters an engineer types that are not ASCII.
+// Common non-ASCII characters in engineering.
 Plain plain(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"µ", "u"},
                                                                                      {"μ", "u"},
@@ -53,7 +53,7 @@ Plain plain(std::string_view text) {
   return out;
 }
 
-// An open parenthesis, or the whole.
+// An open parenthesis, or the whole expression.
 struct Level {
   std::size_t opened = 0;  // where
   bool divided = false;    // its current product
@@ -95,7 +95,7 @@ class Speller {
   }
   std::size_t at() const { return rest_.empty() ? 0 : at_[at_.size() - rest_.size()]; }
   [[noreturn]] void fail(const std::string& what) const { throw ExpressionError(what, at()); }
-  // The last word ends a value, so that what follows must be a sign.
+  // The last word ends a value, so an operator must follow.
   bool after_value() const {
     if (words_.empty()) return false;
     const Kind k = words_.back().kind;
@@ -151,7 +151,7 @@ void Speller::number() {
   take(Kind::number, length, value);
 }
 
-// "gudgeon pin.normal": names may hold blanks and signs, so that what is known decides where one ends.
+// "gudgeon pin.normal": names may contain blanks and signs, so the known names determine where one ends.
 bool Speller::signal() {
   if (!known_.signals || known_.signals->empty()) return false;
   constexpr std::size_t longest_name = 170;
@@ -165,7 +165,7 @@ bool Speller::signal() {
   return false;
 }
 
-// What looks like a signal and is none: owner, point, letter.
+// A dotted name that looks like a signal but is unknown: owner, point, letter.
 void Speller::refuse_dotted() const {
   const std::size_t end = std::min(rest_.find_first_of("+*/^()<>=&|!,"), rest_.find(" - "));
   std::string_view word = rest_.substr(0, end);
@@ -199,8 +199,8 @@ void Speller::name() {
   take(calls ? Kind::function : Kind::name, length);
 }
 
-// A space before a unit multiplies, left to right. After a division that could surprise (N/m s,
-// 10 deg/2 deg), so only the plain fraction 1/2 mm may do it there.
+// A space before a unit multiplies, left to right. After a division this could be surprising (N/m s, 10 deg/2 deg), so only the plain
+// fraction 1/2 mm may do it there.
 void Speller::multiply_by_unit(std::string_view unit) {
   const std::size_t n = words_.size();
   const bool fraction = n >= 3 && words_[n - 1].kind == Kind::number && words_[n - 2].text == "/" && words_[n - 3].kind == Kind::number &&

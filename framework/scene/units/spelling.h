@@ -12,34 +12,33 @@ namespace pintle {
 
 using Parameters = std::map<std::string, Quantity, std::less<>>;
 
-/// A number of the motion that expressions may name.
+/// A signal of the motion that expressions may name.
 struct SignalName {
   Dimension dimension;
-  std::string refused = {};  ///< why it may not stand here; empty: it may
+  std::string refused = {};  ///< why it is not allowed here; empty: it is allowed
 };
 using SignalNames = std::map<std::string, SignalName, std::less<>>;
 
-/// What names an expression may use beside pi and the functions. Must not outlive its parts.
+/// The names an expression may use besides pi and the functions. Must not outlive its parts.
 struct Vocabulary {
   const Parameters& parameters;
-  std::span<const Unit> more_units = {};          ///< beside units()
-  const SignalNames* signals = nullptr;           ///< none: the value cannot change with the motion
-  std::string_view variable = "t";                ///< what it is a function of
+  std::span<const Unit> more_units = {};          ///< besides units()
+  const SignalNames* signals = nullptr;           ///< nullptr: the value cannot change with the motion
+  std::string_view variable = "t";                ///< the name of its variable
   const Unit* unit(std::string_view name) const;  ///< nullptr if there is none
 };
 
-/// An expression cut into words, with the multiplications that a space before a unit means written
-/// out. `10 mm` becomes 10 * mm; `1/2 mm` becomes 1 / 2 * mm. A signal is the longest known name that the text goes on with.
+/// An expression divided into words, with the multiplications implied by a space before a unit made explicit. `10 mm` becomes 10 * mm; `1/2
+/// mm` becomes 1 / 2 * mm. A signal is the longest known name that the text continues with.
 struct Word {
   enum class Kind { number, name, signal, function, sign, open, close, comma } kind;
   std::string text;
-  std::size_t at = 0;  ///< its first character's place in the expression, from 1
+  std::size_t at = 0;  ///< position of its first character in the expression, from 1
   double value = 0;    ///< of a number
 };
 
 /// `3 1/s` becomes 3 * 1 / s.
-/// @throws ExpressionError  a character, number or parenthesis that cannot be, two values side by
-///                          side, or a unit after a division that could be read two ways
+/// @throws ExpressionError  an invalid character, number or parenthesis, two adjacent values, or a unit after a division that is ambiguous
 std::vector<Word> spell(std::string_view text, const Vocabulary&);
 
 }  // namespace pintle

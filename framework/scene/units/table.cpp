@@ -82,7 +82,7 @@ class SampleReader {
   [[noreturn]] void fail(const std::string& message) const { throw SceneError(file_, {line_, key_}, message); }
   double finite(std::string_view word, int column) const {
     const std::optional<double> value = number(word);
-    // Before a first row of numbers the file may be anything, and is not shown.
+    // Lines before the first row of numbers may contain anything, and are not quoted.
     if (!value)
       fail((samples_.t.empty() ? "column " + std::to_string(column) : "\"" + std::string(word) + "\"") +
            " is not a number; write one, like 0.25 or 2.5e-1");
@@ -97,8 +97,8 @@ class SampleReader {
   Samples samples_;
 };
 
-// Second derivatives at the samples from continuity of the first, with the third continuous across
-// the second and the last but one sample.
+// Second derivatives at the samples from continuity of the first derivative, with the third continuous at the second and the last but one
+// sample.
 std::vector<double> curvatures(const std::vector<double>& t, const std::vector<double>& y) {
   const std::size_t n = t.size();
   std::vector<double> m(n, 0.0);
@@ -171,7 +171,7 @@ class GridReader {
     const auto words = columns(text.substr(0, text.find('#')));
     if (words.empty()) return;
     if (!seen_first_) return first(words);
-    if (corner_ && words.size() == head_.size()) head_.erase(head_.begin());  // a number in the corner says nothing
+    if (corner_ && words.size() == head_.size()) head_.erase(head_.begin());  // a number in the corner is ignored
     corner_ = false;
     if (words.size() != head_.size() + 1)
       fail("holds " + counted(words.size(), "number") + "; write " + std::to_string(head_.size() + 1) + ": one of " + names_[0] +
@@ -223,7 +223,7 @@ class GridReader {
   std::array<double, 3> units_;
   std::array<std::string, 2> names_;
   int line_ = 0, first_line_ = 0;
-  bool seen_first_ = false, corner_ = false;  ///< the first line may begin with a number that is none of b
+  bool seen_first_ = false, corner_ = false;  ///< the first line may begin with a number that does not belong to b
   std::vector<std::string> head_;
   Grid grid_;
 };
@@ -298,7 +298,7 @@ std::optional<Swing> worst_swing(const Spline& spline) {
   const auto rise = [&](std::size_t i) { return y[i + 1] - y[i]; };
   Swing worst{0, 0, noticed * (most - least)};
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-    if (i > 0 && rise(i - 1) * rise(i) < 0) continue;  // a summit of the samples may have its own between them
+    if (i > 0 && rise(i - 1) * rise(i) < 0) continue;  // at an extremum of the samples the spline may have its own between them
     if (i + 2 < t.size() && rise(i) * rise(i + 1) < 0) continue;
     const auto [low, high] = std::minmax(y[i], y[i + 1]);
     for (int k = 1; k < looks; ++k) {

@@ -73,7 +73,7 @@ struct Named {
   Dimension dimension;
   const char *words, *unit;
 };
-// "unit" must read back as an expression.
+// "unit" must be readable as an expression.
 const std::array named{Named{d::number, "a number", ""},
                        Named{d::length, "a length", "m"},
                        Named{d::mass, "a mass", "kg"},

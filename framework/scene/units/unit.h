@@ -6,9 +6,8 @@
 
 namespace pintle {
 
-/// Powers of length, mass, time, angle and electric current. Halves occur: a contact stiffness is in N/m^1.5. Angle
-/// is carried so that 30 deg is not taken for a bare number, but it never separates two dimensions:
-/// N m and N m/rad, 1/s and rad/s are the same.
+/// Powers of length, mass, time, angle and electric current. Half powers occur: a contact stiffness is in N/m^1.5. Angle is included so
+/// that 30 deg is not taken for a bare number, but it does not distinguish dimensions: N m and N m/rad, 1/s and rad/s are the same.
 struct Dimension {
   double length = 0, mass = 0, time = 0, angle = 0, current = 0;
 };
@@ -23,14 +22,14 @@ inline constexpr Dimension number{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{
 
 Dimension product(const Dimension&, const Dimension&);
 Dimension power(const Dimension&, double exponent);
-/// Equal but for angle.
+/// Equal except for angle.
 bool same(const Dimension&, const Dimension&);
-/// No unit at all: neither dimension nor angle.
+/// No unit: neither dimension nor angle.
 bool bare(const Dimension&);
 
-/// "a length [m]", "a moment of inertia [kg m^2]", or the base units for one without a name.
+/// "a length [m]", "a moment of inertia [kg m^2]", or the base units if it has no name.
 std::string describe(const Dimension&);
-/// The SI unit as an expression can read it back: "m", "kg*m^2", empty for a number.
+/// The SI unit as readable in an expression: "m", "kg*m^2", empty for a number.
 std::string si_unit(const Dimension&);
 
 struct Unit {
@@ -40,14 +39,14 @@ struct Unit {
 };
 /// Every unit the language knows.
 std::span<const Unit> units();
-/// @returns nullptr if there is none of that name; names are case-sensitive
+/// @returns nullptr if there is none of this name; names are case-sensitive
 const Unit* find_unit(std::string_view name);
 
-/// Hz and kHz as turns: units only where the value is a frequency and nothing else (`modes.below`).
+/// Hz and kHz as turns per second: units only where the value can only be a frequency (`modes.below`).
 std::span<const Unit> frequency_units();
 
-/// What to write instead of a unit, constant or function that people try and that is absent on
-/// purpose ("Hz", "Nm", "e", "ln"); empty for any other word.
+/// What to write instead of a unit, constant or function that users may try but that is intentionally absent ("Hz", "Nm", "e", "ln"); empty
+/// for any other word.
 std::string_view instead_of(std::string_view word);
 /// "lb is no unit here: write 0.45359237 kg. Units: m, km, …".
 std::string no_unit(const std::string& word);

@@ -28,7 +28,7 @@ Json json(const Law& law) {
   return law.text;
 }
 
-/// One that a reader could doubt says its unit.
+/// An angle for which a reader might doubt the unit is written with it.
 Json angle(double value) {
   constexpr double turn = 2 * std::numbers::pi;
   if (std::abs(value) <= turn) return value;
@@ -48,7 +48,7 @@ Json points(const std::vector<ScenePoint>& all) {
   return out;
 }
 
-// A parameter keeps its unit, so that laws in t that use it read back.
+// A parameter keeps its unit, so that laws in t that use it can be read back.
 Json parameter(const std::string& name, double value, const Parameters& parameters) {
   const auto found = parameters.find(name);
   const std::string unit = found == parameters.end() ? "" : si_unit(found->second.dimension);
@@ -174,7 +174,7 @@ Json load(const SceneTorsionSpring& f) {
 }
 Json load(const SceneMaxwell& f) { return {{"maxwell", ends(f.a, f.b)}, {"stiffness", f.stiffness}, {"damping", f.damping}}; }
 
-// Said where it is not so from the start.
+// Written only if it is not engaged at the start.
 Json with_engaged(Json element, bool engaged) {
   if (!engaged) element["engaged"] = false;
   return element;

@@ -86,7 +86,7 @@ void put_impact(const SceneImpact& impact, Json& out) {
   if (!impact.poisson) out["tangential restitution"] = impact.tangential;
 }
 
-// What presses the surfaces of a contact apart.
+// The normal law of a contact.
 void put_law(const SceneNormal& normal, const std::optional<SceneImpact>& impact, Json& out) {
   if (impact)
     put_impact(*impact, out);

@@ -19,7 +19,7 @@ Json elasticity(const Orthotropic& m) {
   return {{"orthotropic", {{"young", young}, {"poisson", poisson}, {"shear", m.shear_12}, {"angle", m.angle}}}};
 }
 
-// A material of the scene by its name, one of the body's own by its constants.
+// A material of the scene by its name, a body's own material by its constants.
 void put_made(Json& out, const SceneMaterial& material, const std::optional<double>& mass) {
   if (material.name.empty())
     out.update(json(material));

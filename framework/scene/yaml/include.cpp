@@ -29,7 +29,7 @@ class Inclusion {
  public:
   explicit Inclusion(Source& source) : source_(source) {}
 
-  /// Into the scene, or into an assembly.
+  /// Adds included parts to the scene or to an assembly.
   void complete(Yaml& part, const std::string& path, bool is_scene) {
     if (part.kind != Yaml::Kind::map) return;
     if (Yaml* written = entry_of(part, "include")) {
@@ -56,7 +56,7 @@ class Inclusion {
     for (const Node& file : files.list(1, "the name of a scene file beside this one, or a list of them")) does(file);
   }
 
-  /// What a file holds, with what it includes, ahead of what is there.
+  /// Inserts the content of a file, with its own includes, before the existing entries.
   void add(const Node& named, std::set<fs::path>& once, Yaml& all) {
     const fs::path beside = named.yaml().file == 0 ? fs::path() : source_.included[static_cast<std::size_t>(named.yaml().file - 1)].folder;
     const fs::path name = named.text("the name of a scene file beside this one");
@@ -109,7 +109,7 @@ class Inclusion {
                      "is also in " + file + ":" + std::to_string(other.line) + "; rename or remove one of them");
   }
 
-  /// Two included files, entry by entry; settings are those of the first.
+  /// Joins two included files, entry by entry; settings of the first are kept.
   void join(Yaml& first, Yaml second) const {
     for (Yaml& section : second.items)
       if (!is_setting(section) || !entry_of(first, section.key)) put(first, std::move(section), "");
@@ -133,7 +133,7 @@ class Inclusion {
     }
   }
 
-  /// What is included stands ahead; a value of a parameter and a setting are the part's own where it gives them.
+  /// Included parts come first; the part's own parameter values and settings take precedence.
   void merge(Yaml& part, Yaml all, bool is_scene) const {
     std::erase_if(all.items, [&](const Yaml& section) { return is_setting(section) && (!is_scene || entry_of(part, section.key)); });
     own_values(part, all, "parameters");

@@ -4,8 +4,8 @@
 
 namespace pintle {
 
-/// Reads the files named under `include`, of the scene and of its assemblies, into the tree, and theirs: docs/scene.md, "Include".
-/// @throws SceneError  a file that is not there or not allowed, that includes itself, or a name that two files give
+/// Reads the files named under `include`, by the scene and by its assemblies, into the tree, recursively: docs/scene.md, "Include".
+/// @throws SceneError  a file that does not exist or is not allowed, that includes itself, or a name defined in two files
 void include_files(Yaml& scene, Source&);
 
 }  // namespace pintle

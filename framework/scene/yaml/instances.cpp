@@ -27,13 +27,13 @@ const Yaml* item_of(const Yaml& map, std::string_view key) {
 
 bool repeats(const Yaml& entry) { return entry.kind == Yaml::Kind::map && item_of(entry, "repeat"); }
 
-/// By its name, or as the frame that a joint has where it names none.
+/// By its name, or as the default frame of a joint that names none.
 bool says_ground(const Yaml& yaml) {
   const bool frame = yaml.key == "screw" || yaml.key == "cam" || yaml.key == "differential";
   return frame || yaml.text == "ground" || std::ranges::any_of(yaml.items, says_ground);
 }
 
-/// What belongs to the scene as a whole; all other groups of the top hold parts by name.
+/// Groups of the scene as a whole; all other top-level groups contain named parts.
 bool is_of_the_whole(std::string_view section) {
   static constexpr std::array whole{"title", "gravity", "parameters", "run", "static", "output", "start", "ground"};
   return std::ranges::find(whole, section) != whole.end();
@@ -45,7 +45,7 @@ bool is_written_out(std::string_view section) {
 /// The scene, or an instance of an assembly.
 struct Part {
   const Yaml& written;
-  std::string path;       ///< of its keys: "assemblies.leg."
+  std::string path;       ///< key path: "assemblies.leg."
   int scope = 0;          ///< 0: the scene
   std::string name = {};  ///< of the instance
   Placing placing = {};
@@ -91,7 +91,7 @@ class Expansion {
     return found != map.items.end() ? *found : map.items.emplace_back(Yaml{Yaml::Kind::map, like.line, like.key, {}, {}, like.file, 0});
   }
 
-  /// The entry, or its copies "NAME 1", "NAME 2", … if it repeats; each in a scope with its `index`.
+  /// Calls `does` for the entry, or for its copies "NAME 1", "NAME 2", … if it repeats; each in a scope with its `index`.
   template <class Do>
   void each_copy(const Yaml& entry, const std::string& path, int scope, Do does) {
     Yaml one = copied(entry, scope);
@@ -164,19 +164,19 @@ class Expansion {
           one.key = starting(one.key, part);
         else if (one.key != "ground")
           one.key = part.full(one.key);
-        if (as == "start" && !started_.insert(one.key).second) return;  // what holds the instance has said it
+        if (as == "start" && !started_.insert(one.key).second) return;  // already set by the enclosing part
         if (!part.placing.stays()) place(one, as, as + "." + one.key, part.placing, source_);
         to.items.push_back(std::move(one));
       });
   }
 
-  /// The body or joint that starts; a joint may have the name of a port.
+  /// The body or joint with start values; a joint may have the name of a port.
   std::string starting(const std::string& key, const Part& part) const {
     const Scope* scope = source_.scope(part.scope);
     return scope && scope->names->has(key) ? part.full(key) : resolved(source_, part.scope, {key, ""}).part;
   }
 
-  /// Points of an assembly are recorded beside those of the scene.
+  /// Adds the recorded points of an assembly to those of the scene.
   void lay_output(const Yaml& section, const Part& part) {
     Yaml& output = group(out_, section);
     for (const Yaml& list : section.items) {
@@ -262,7 +262,7 @@ class Expansion {
     return *names_.emplace(&assembly, &names).first->second;
   }
 
-  /// The assembly's own values, and those that the instance gives in their place.
+  /// The assembly's own parameter values, replaced by those of the instance where given.
   void fill_parameters(const Node& spec, const Yaml& assembly, const Part& inner, Scope& scope) {
     scope.parameters = source_.visible(spec.yaml().scope);
     if (const Scope* around = source_.scope(spec.yaml().scope)) scope.own = around->own;
@@ -291,7 +291,7 @@ class Expansion {
                    (known.empty() ? "; name it under its parameters" : "." + did_you_mean(name, known)));
   }
 
-  /// A bare number has the parameter's unit.
+  /// A bare number gets the parameter's unit.
   static Quantity in_place_of(const Quantity& usual, const Node& value) {
     Quantity q;
     try {
@@ -322,7 +322,7 @@ class Expansion {
       if (!scope.ports.contains(port)) spec.fail("does not connect its port \"" + port + "\"; add ports: {" + port + ": body.A}");
   }
 
-  /// What `ground` alone means in an instance that stands elsewhere.
+  /// Defines the origin meant by `ground` alone in an instance that is placed elsewhere.
   void lay_origin(const Yaml& like, const Part& inner) {
     Yaml at{Yaml::Kind::map, like.line, inner.name, {}, {}, like.file, 0};
     const auto number = [&](const char* key, double value) {

@@ -16,7 +16,7 @@ std::string trimmed(const std::string& s) {
   return begin == std::string::npos ? "" : s.substr(begin, end - begin + 1);
 }
 
-/// "a.b c[2].d" into a, b c, 2, d.
+/// Splits "a.b c[2].d" into a, b c, 2, d.
 std::vector<std::string> steps(const std::string& path) {
   std::vector<std::string> out{""};
   for (const char c : path) {
@@ -48,8 +48,8 @@ Yaml* find(Yaml& map, const std::string& key) {
   return found == map.items.end() ? nullptr : &*found;
 }
 
-/// Entries of these groups have names that the scene's author chose: what is not among them is mistyped, not new.
-/// What the entry is called in a message, or null.
+/// Entries of these groups have names chosen by the scene's author: an unknown one is a typing error, not a new entry. Returns what the
+/// entry is called in a message, or null.
 const char* named_entry(const std::string& group) {
   constexpr std::array<std::array<const char*, 2>, 8> named{{{"bodies", "body"},
                                                              {"instances", "instance"},
@@ -69,7 +69,7 @@ void mark(Yaml& yaml) {
   for (Yaml& item : yaml.items) mark(item);
 }
 
-/// What is put into an instance's part may use its parameters.
+/// Entries inserted into an instance may use its parameters.
 void adopt(Yaml& yaml, int scope) {
   yaml.scope = scope;
   for (Yaml& item : yaml.items) adopt(item, scope);
@@ -80,7 +80,7 @@ std::optional<std::size_t> whole(const std::string& s) {
   return static_cast<std::size_t>(std::stoul(s));
 }
 
-/// One override on its way down the tree.
+/// Follows one override down the tree.
 class Walk {
  public:
   Walk(const std::string& file, const std::string& path, const std::string& text)
@@ -96,7 +96,7 @@ class Walk {
       if (Yaml* next = child(*at, i, value.kind == Yaml::Kind::nothing))
         at = next;
       else
-        return;  // nothing there to take away
+        return;  // nothing to remove
     }
     put(*at, std::move(value));
   }
@@ -122,7 +122,7 @@ class Walk {
       fail(std::string("there is no ") + what + " \"" + steps_[i] + "\"." + did_you_mean(steps_[i], keys_of(group)));
   }
 
-  /// A group to step into; made of nothing. @returns false if it is nothing and need not be made
+  /// Opens a group to descend into, creating it if empty. @returns false if it is empty and need not be created
   bool open(Yaml& group, std::size_t i, bool removing) const {
     if (group.kind == Yaml::Kind::map || group.kind == Yaml::Kind::list) return true;
     if (group.kind == Yaml::Kind::scalar)
@@ -141,7 +141,7 @@ class Walk {
     return *k - 1;
   }
 
-  /// Entry i of the path; made if it is missing. @returns nullptr if it is missing and something is to be removed
+  /// Entry i of the path, created if missing. @returns nullptr if it is missing and something is to be removed
   Yaml* child(Yaml& group, std::size_t i, bool removing) const {
     if (i == 0) must_be_key(group, 0);
     if (!open(group, i, removing)) return nullptr;
@@ -184,7 +184,7 @@ class Walk {
   std::vector<std::string> steps_;
 };
 
-/// May the scalar stand in a flow list or map as it is?
+/// Can the scalar be written unquoted in a flow list or map?
 bool plain(const std::string& s, bool inside) {
   if (s.empty() || s == "null" || s == "~" || s == "Null" || s == "NULL") return false;
   if (trimmed(s) != s || s.find_first_of("\n\r\t\"\\") != std::string::npos) return false;
@@ -246,7 +246,7 @@ Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides& ove
 }
 
 namespace {
-/// Not made of entries that instances and repeats add to.
+/// Groups without entries that instances and repeats add to.
 bool is_as_written(std::string_view group) {
   static constexpr std::array as_written{"title", "gravity", "parameters", "run",        "static",   "output",
                                          "start", "ground",  "include",    "assemblies", "instances"};

@@ -8,20 +8,20 @@
 /// `--set PATH=VALUE`: any key of a scene by its path, before the scene is read. docs/scene.md
 namespace pintle {
 
-/// A name with a dot is a path: the subtree there gives way to `value`, read as YAML; `null` takes it away; missing
-/// groups on the way are made; entries of lists are counted from 1. A key of the top alone is a path too, unless a
-/// parameter has that name. All other names are parameters, for the reader to look after.
+/// A name with a dot is a path: the subtree there is replaced by `value`, read as YAML; `null` removes it; missing groups on the path are
+/// created; entries of lists are counted from 1. A single top-level key is a path too, unless a parameter has this name. All other names
+/// are parameters, handled by the reader.
 bool is_path(const std::string& name, const Yaml& scene);
 
-/// Applies those of the overrides that are paths, in their order. What is put in has no lines; messages about it say `--set`.
+/// Applies the overrides that are paths, in their order. Inserted entries have no lines; messages about them say `--set`.
 /// @returns the others: parameters
-/// @throws SceneError  naming `--set PATH`: the path leads nowhere, or the value is not YAML
+/// @throws SceneError  naming `--set PATH`: the path does not exist, or the value is not YAML
 Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides&);
 
-/// The overrides for the tree as it is written, and those for what only comes of its instances and repeated entries.
+/// Splits the overrides into those for the tree as written and those for entries that only expansion creates.
 std::pair<Overrides, Overrides> written_and_made(const Yaml& scene, const Overrides&);
 
-/// A value as an override's text: on one line, read back to the same tree.
+/// A value as an override's text: on one line, readable as the same tree.
 std::string override_text(const Yaml&);
 
 }  // namespace pintle

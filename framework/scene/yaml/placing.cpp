@@ -34,10 +34,10 @@ Placing operator*(const Placing& outer, const Placing& inner) {
 
 namespace {
 
-/// Of axes whose y axis is drawn on the other side.
+/// In axes with the y axis reversed.
 Pair flipped(const Pair& p) { return {p[0], -p[1]}; }
 
-/// Points of the body whose axes are mirrored, of the ground moved.
+/// Points of a body are mirrored with its axes; points of the ground are moved.
 struct PlacesOf {
   const Placing& placing;
   bool ground;
@@ -64,12 +64,12 @@ void place_polar(const Spot& polar, const PlacesOf& places) {
   if (places.placing.mirrored) std::ranges::reverse(polar.yaml.items);
 }
 
-/// The side of the material of an open profile changes as one goes along its mirror image.
+/// The material of an open profile changes sides when it is mirrored.
 void swap_side(const Spot& profile) {
   const bool closed = profile.has("polar") || (profile.has("closed") && profile.at("closed").node.yes());
   if (closed) return;
   const bool right = profile.has("material") && profile.at("material").node.text("left or right") == "right";
-  if (profile.has("material") && !right && profile.at("material").yaml.text != "left") return;  // told by the reader
+  if (profile.has("material") && !right && profile.at("material").yaml.text != "left") return;  // reported by the reader
   put(profile.yaml, scalar_like(profile.yaml, "material", right ? "left" : "right"));
 }
 
@@ -109,7 +109,7 @@ void place_point(const Spot& point, const PlacesOf& places, const Placing& placi
     put(point.yaml, angle_like(point.yaml, "angle", of.direction(0)));
 }
 
-/// A point that is drawn by its place alone gets a direction where the ground turns.
+/// A ground point given only by its position gets a direction if the ground is rotated.
 void place_ground_point(Spot point, const Placing& placing) {
   if (point.node.is_list() && placing.direction(0) != 0) {
     const Pair p = placing.point(point.node.pair(dimension::length));
@@ -160,7 +160,7 @@ void place_body(Spot body, const Placing& placing) {
   const bool posed = body.has("pose");
   if (posed && body.at("pose").has("at")) at = body.at("pose").at("at").node.pair(dimension::length);
   if (posed && body.at("pose").has("angle")) angle = body.at("pose").at("angle").node.quantity(dimension::angle);
-  if (drawn && !posed) return;  // the points say where it is
+  if (drawn && !posed) return;  // the points give its position
   Yaml pose{Yaml::Kind::map, body.yaml.line, "pose", {}, {}, body.yaml.file, body.yaml.scope};
   pose.items = {pair_like(pose, "at", placing.point(at))};
   if (placing.direction(angle) != 0 || (posed && body.at("pose").has("angle")))
@@ -168,7 +168,7 @@ void place_body(Spot body, const Placing& placing) {
   put(body.yaml, std::move(pose));
 }
 
-/// x and y, or one of them where the other has no part in it.
+/// x and y, or one of them if the other does not affect it.
 void place_plane(Spot start, const char* both, const char* x, const char* y, const Dimension& of, const Placing& placing) {
   const auto placed = [&](const Pair& p) { return of.time == 0 ? placing.point(p) : placing.vector(p); };
   if (start.has(both)) set(start.at(both), placed(start.at(both).node.pair(of)));

@@ -9,7 +9,7 @@ namespace pintle::placing_parts {
 
 namespace {
 
-/// Of a relation angles change their signs, displacements and distances do not.
+/// In a relation angles change sign, displacements and distances do not.
 void mirror_terms(const Spot& differential) {
   if (!differential.node.is_list()) return;
   for (const Spot& term : differential.list("two or three terms")) {
@@ -21,7 +21,7 @@ void mirror_terms(const Spot& differential) {
 
 bool is_of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// An expression with another in the place of one of its names.
+/// Substitutes an expression for a name in another expression.
 std::string substituted(const std::string& text, const std::string& name, const std::string& by) {
   std::string out;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -34,8 +34,8 @@ std::string substituted(const std::string& text, const std::string& name, const 
   return out;
 }
 
-/// Has the curve of a cam begin where its drawing does: angles against the ground turn with the instance, and its mirror image turns the
-/// other way. A body that it is measured against is turned and mirrored with it.
+/// Makes the curve of a cam begin where its drawing does: angles relative to the ground rotate with the instance, and its mirror image
+/// turns the other way. A body used as reference is rotated and mirrored with it.
 void place_cam(const Spot& joint, const Placing& placing) {
   const std::vector<Spot> points = joint.at("cam").list("two points, or three: [camshaft, valve.P, frame.G]");
   const bool against_ground = points.size() < 3 || read_point_ref(points[2].node).body == "ground";
@@ -75,7 +75,7 @@ void mirror_joint(const Spot& joint) {
   if (joint.has("clearance") && joint.at("clearance").has("arc")) negate(joint.at("clearance").at("arc"), "middle", dimension::angle);
 }
 
-/// It goes round each pulley the other way.
+/// It runs round each pulley in the opposite direction.
 void mirror_belt(Spot force) {
   const std::vector<Spot> radii = force.at("radii").list("a radius for each of the pulleys");
   const bool crossed = force.has("crossed") && force.at("crossed").node.yes();
@@ -85,10 +85,10 @@ void mirror_belt(Spot force) {
   std::erase_if(force.yaml.items, [](const Yaml& key) { return key.key == "crossed"; });
 }
 
-/// Components in axes that are turned and mirrored.
+/// Components in rotated and mirrored axes.
 void place_components(const Spot& force, const Placing& placing) {
   const std::vector<Spot> two = force.list("two components [x, y]");
-  if (two.size() != 2) return;  // told by the reader
+  if (two.size() != 2) return;  // reported by the reader
   const auto [c, s] = placing.turn();
   if (c != 0 && s != 0) {
     for (const Spot& part : two)
@@ -120,7 +120,7 @@ void mirror_driver(const Spot& driver) {
   if (!driver.has("angle") || !driver.has("law")) return;
   const Spot law = driver.at("law");
   if (says_present(law.node))
-    set_text(law, "2*present - (" + law.node.text("a law of time") + ")");  // present less what is added
+    set_text(law, "2*present - (" + law.node.text("a law of time") + ")");  // present minus what is added
   else
     negate_law(law, "rad");
 }

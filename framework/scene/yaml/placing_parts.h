@@ -8,10 +8,10 @@
 #include "framework/common/text.h"
 #include "framework/scene/yaml/placing.h"
 
-/// What the files that place the parts of an instance share.
+/// Shared by the files that place the parts of an instance.
 namespace pintle::placing_parts {
 
-/// A value that can be changed, and what reads it.
+/// A changeable value with its reader.
 struct Spot {
   Yaml& yaml;
   Node node;
@@ -71,14 +71,14 @@ inline void negate(const Spot& owner, std::string_view key, const Dimension& of)
   of.angle == 1 && of.time == 0 ? set_angle(owner.at(key), opposite) : set(owner.at(key), opposite);
 }
 
-/// A law of time, or a table, with its sign changed.
+/// Reverses the sign of a law of time or a table.
 inline void negate_law(const Spot& law, const char* unit) {
   if (!law.node.is_map()) return set_text(law, "-(" + law.node.text("a law of time") + ")");
   const std::string of = law.has("value unit") ? law.at("value unit").node.text("a unit") : unit;
   put(law.yaml, scalar_like(law.yaml, "value unit", "-1*(" + of + ")"));
 }
 
-/// A joint, a force and a driver of an instance that is turned or mirrored.
+/// Places a joint, a force or a driver of a rotated or mirrored instance.
 void place_joint(const Spot&, const Placing&);
 void place_force(const Spot&, const Placing&);
 void mirror_driver(const Spot&);

@@ -16,8 +16,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{100} << 20;
 
-// An override is written as a parameter's value is; a bare number takes the parameter's own unit's
-// dimension, SI.
+// An override is written like a parameter's value; a bare number gets the dimension of the parameter's own unit, in SI.
 Quantity overridden(const std::string& name, const std::string& text, const Quantity& written, const Source& source) {
   const Place place{0, "--set " + name};
   try {

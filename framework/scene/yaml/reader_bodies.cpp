@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-// A point in the middle of a hole; only a plate has holes.
+// A point in the middle of a hole; only plates have holes.
 void read_hole(const Node& node, bool plate, ScenePoint& point) {
   if (!plate) node.at("hole").fail("is for plates only: no other body has a hole; write [x, y]");
   if (node.has("at")) node.at("at").fail("cannot be combined with hole, whose centre is the position; keep one of them");
@@ -19,7 +19,7 @@ void read_hole(const Node& node, bool plate, ScenePoint& point) {
     point.coupling = RimCoupling::average;
 }
 
-/// A place in the world of the drawn pose, in the body's axes; a direction beside it is drawn in the world as well.
+/// A position in the world for the drawn pose, converted to the body's axes; a direction given with it is in the world too.
 void read_world(const Node& node, const SceneBody& body, ScenePoint& point) {
   for (const char* key : {"at", "hole"})
     if (node.has(key)) node.at(key).fail("cannot be combined with world, which gives the position; keep one of them");
@@ -29,7 +29,7 @@ void read_world(const Node& node, const SceneBody& body, ScenePoint& point) {
   if (node.has("angle")) point.angle -= body.angle;
 }
 
-/// Axes of a body that is drawn by places in the world alone: in the middle of the first two, x from one to the other.
+/// Axes of a body drawn only by positions in the world: origin in the middle of the first two, x axis from one to the other.
 void read_drawn_pose(const Node& points, SceneBody& body) {
   std::vector<Pair> world;
   for (const Node& point : points.entries("names and places: {A: [10 mm, 0]}"))
@@ -55,7 +55,7 @@ void read_pose(const Node& node, SceneBody& body) {
   }
 }
 
-/// @param body  whose point it is; nullptr: the ground's
+/// @param body  the owner of the point; nullptr: the ground
 ScenePoint read_point(const Node& node, std::string_view keys, bool plate, const SceneBody* body) {
   ScenePoint point;
   point.name = checked_name(node);

@@ -16,7 +16,7 @@ Elasticity read_elasticity(const Node& node) {
   return {node.at("young").quantity(dimension::stress, rule::positive), node.at("poisson").quantity(dimension::number, rule::poisson)};
 }
 
-// `young` and `poisson` are those of both bodies, unless the other has its own.
+// `young` and `poisson` apply to both bodies, unless the other has its own.
 void read_stiffness(const Node& node, std::string_view keys, SceneNormal& normal) {
   const char* other = keys.starts_with("joints") ? "journal" : "second";
   const bool elastic = node.has("young") || node.has("poisson");
@@ -48,7 +48,7 @@ void read_spring_damper(const Node& law, SceneNormal& normal) {
   normal.damping = law.at("damping").quantity({0, 1, -1, 0}, rule::not_negative);
 }
 
-// Restitution, and what speed scales the damping.
+// Restitution, and the speed that scales the damping.
 void read_damping(const Node& law, std::string_view keys, SceneNormal& normal) {
   read_optional(law, "restitution", dimension::number, rule::zero_to_one, normal.restitution);
   read_optional(law, "slowest impact", dimension::speed, rule::positive, normal.slowest_impact);
@@ -86,7 +86,7 @@ std::vector<Pair> read_points(const Node& law) {
   return out;
 }
 
-// What the layer of winkler is made of, or its stiffness.
+// The material of winkler's layer, or its stiffness.
 void read_layer(const Node& law, SceneNormal& normal) {
   if (law.has("stiffness")) {
     for (const char* key : {"layer", "young", "poisson"})
@@ -137,7 +137,7 @@ SceneContact read_contact(const Node& node, const Scene& scene) {
   std::tie(out.a, out.b) = read_ends(node.at("between"), "two profiles, each as BODY.PROFILE: [box.outline, ground.floor]");
   for (const PointRef* ref : {&out.a, &out.b}) {
     const auto body = std::ranges::find(scene.bodies, ref->body, &SceneBody::name);
-    if (ref->body != "ground" && body == scene.bodies.end()) continue;  // told when it is built
+    if (ref->body != "ground" && body == scene.bodies.end()) continue;  // reported by build
     const auto& profiles = ref->body == "ground" ? scene.ground_profiles : body->profiles;
     std::vector<std::string> known;
     for (const SceneProfile& p : profiles) known.push_back(p.name);

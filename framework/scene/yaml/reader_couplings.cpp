@@ -74,7 +74,7 @@ void read_wheels(const Node& node, const JointWord& word, SceneCoupling& out) {
 
 // ---- the curve of a cam ----
 
-// A curve over a whole turn that ends where it begins goes on and on: as many samples more on both sides as a spline can feel.
+// A curve over a whole turn that ends where it begins is periodic: samples are added on both sides, as many as affect a spline.
 struct Periodic {
   Spline spline;
   double begin;
@@ -84,7 +84,7 @@ struct Periodic {
   }
 };
 Periodic periodic(const Samples& turn) {
-  constexpr std::size_t felt = 40;  // a spline forgets a sample by 0.27 a sample, 0.27⁴⁰ = 1e-23
+  constexpr std::size_t felt = 40;  // the influence of a sample on a spline decays by 0.27 per sample, 0.27⁴⁰ = 1e-23
   const std::size_t n = turn.t.size() - 1;
   const int turns = static_cast<int>(felt / n) + 1;
   Samples all;
@@ -94,7 +94,7 @@ Periodic periodic(const Samples& turn) {
   return {Spline(all), turn.t[0]};
 }
 
-// Beyond a table there is no curve: what it would be is not known.
+// Beyond the table the curve is undefined.
 struct Bounded {
   Spline spline;
   Jet operator()(double angle) const {
@@ -104,7 +104,7 @@ struct Bounded {
   }
 };
 
-/// A curve whose angle is counted from `zero` on, and clockwise or not.
+/// A curve whose angle is counted from `zero`, clockwise or counter-clockwise.
 Law from_zero(Law law, double zero, bool clockwise) {
   if (zero == 0 && !clockwise) return law;
   law.at = [of = law.at, zero, sign = clockwise ? -1.0 : 1.0](double angle) {
@@ -142,7 +142,7 @@ Law read_curve_table(const Node& node, const Dimension& expected, const std::str
   return from_zero({periodic(samples), text.dump(), false}, zero, clockwise);
 }
 
-/// A curve has other values or slopes on both sides of an angle; one that ends there has none.
+/// A curve has different values or slopes on both sides of an angle; a curve that ends there has none.
 bool jumps_at(const TimeLaw& curve, double angle) {
   constexpr double near = 1e-7, smooth = 1e-3;
   const Jet before = curve(angle - near), after = curve(angle + near);
@@ -173,7 +173,7 @@ Law read_cam_curve(const Node& node, const Dimension& expected, const std::strin
   if (const auto pole = pole_of(law.at, full_turn, true)) not_finite(*pole);
   for (const LawBreak& b : scale.breaks)
     if (value_jumps(b) || speed_jumps(b, scale.fastest)) kinked(b.after);
-  for (const double end : {-full_turn, 0.0, full_turn})  // a cam turns on there
+  for (const double end : {-full_turn, 0.0, full_turn})  // a cam continues to rotate there
     if (jumps_at(law.at, end)) kinked(end);
   return law;
 }

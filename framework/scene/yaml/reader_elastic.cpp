@@ -14,7 +14,7 @@ using Method = SceneModes::Method;
 
 const std::vector<std::string> keep_words{"keep", "count", "below", "effective mass"};
 
-// At most one of the keys that say how many shapes stay; a count is at least `least`.
+// At most one of the keys for the number of shapes; a count is at least `least`.
 SceneKeep read_keep(const Node& node, long least) {
   SceneKeep keep;
   std::vector<std::string> said;
@@ -71,7 +71,7 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
         node.at(keep).fail(std::string("is a key of ") + key + "; move it into its braces: " + key + ": {" + keep + ": …}");
     check_keys(node.at(key), std::string("bodies.*.modes.") + key);
     modes.method = method;
-    modes.keep = read_keep(node.at(key), 0);  // none: the static shapes alone
+    modes.keep = read_keep(node.at(key), 0);  // none: only the static shapes
     return modes;
   }
   modes.keep = read_keep(node, 1);
@@ -133,7 +133,7 @@ Stiffening read_stiffening(const Node& node) {
   return loads == "rotation" ? Stiffening::rotation : loads == "axial" ? Stiffening::axial : Stiffening::none;
 }
 
-// What only a body that bends in a mechanism can be asked.
+// Rejects keys that only a flexible body in a mechanism can have.
 [[noreturn]] void reject_of_rigid(const Node& node) {
   node.fail(
       "needs a flexible body: without modes the body is rigid in a mechanism; add for example "
@@ -197,7 +197,7 @@ SceneElastic read_elastic(const Node& node, const SceneBody& body, const std::ve
 
 namespace {
 
-/// Points of a body that joints hold, each once, and those of them whose direction they hold too.
+/// Points of a body that joints hold, each once, and those whose direction is held too.
 struct Held {
   std::vector<const ScenePoint*> points, clamped;
 };

@@ -59,7 +59,7 @@ SceneDoing read_doing(const Node& node, const std::string& keys, const Scene& sc
   return out;
 }
 
-// Of a condition that never changes, a function that does not either.
+// For a constant condition, a constant function.
 std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
   if (condition.constant) {
     const double holds = condition.at(0).value;

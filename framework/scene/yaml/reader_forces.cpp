@@ -34,7 +34,7 @@ SceneTorque read_torque(const Node& node) {
   return {from, read_point_ref(node.at("on")), {}};
 }
 
-// What the two kinds of springs have in common.
+// Common part of the two kinds of springs.
 template <class Spring>
 Spring read_ends_and_rates(const Node& node, std::string_view kind, const Dimension& stiffness, const Dimension& damping) {
   if (node.has("law"))
@@ -95,10 +95,10 @@ SceneBelt read_belt(const Node& node) {
   return out;
 }
 
-// Until when laws are judged.
+// Time up to which laws are checked.
 double end_of_run(const Scene& scene) { return scene.has_run ? scene.run.until : 0; }
 
-// The laws of a force, which may name whatever the scene has.
+// The laws of a force, which may name anything in the scene.
 void read_laws_of(const Node& node, const std::filesystem::path& folder, double until, ActingSignals& signals, SceneLoad& load) {
   const auto law = [&](const Node& at, std::string_view keys, const Dimension& d) {
     return read_load_law(at, keys, d, folder, until, signals);

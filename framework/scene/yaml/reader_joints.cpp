@@ -42,7 +42,7 @@ void read_model(const Node& node, SceneClearance& clearance) {
               (clearance.model == ClearanceModel::spring_damper ? ", or both stiffness and damping" : ""));
 }
 
-// The keys of a clearance in one kind of joint beside those of its laws, with an example of those that it needs.
+// The keys of a clearance in one kind of joint, in addition to those of its laws, with examples of the required ones.
 struct ClearanceKeys {
   JointKind kind;
   std::vector<std::pair<std::string, std::string>> needs;
@@ -171,7 +171,7 @@ void read_points(const Node& node, const JointWord& word, SceneJoint& joint) {
   if (points.size() == 3) {
     joint.c = read_point_ref(points[2]);
   } else if (const PartName own = resolved(node.source(), node.yaml().scope, {"ground", ""}); !own.point.empty()) {
-    joint.c = PointRef{own.part, own.point, node.place()};  // of an instance that is turned
+    joint.c = PointRef{own.part, own.point, node.place()};  // of a rotated instance
   }
 }
 

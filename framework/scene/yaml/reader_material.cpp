@@ -7,7 +7,7 @@ namespace pintle {
 
 namespace {
 
-// One ratio, or as many as there are axes.
+// One ratio, or one per axis.
 std::vector<double> ratios(const Node& node, std::size_t axes) {
   if (!node.is_list()) return {node.quantity(dimension::number)};
   return read_quantities(node, 3, dimension::number, rule::any, axes == 3 ? "three ratios [12, 13, 23]" : "one ratio, of axes 1 and 2");
@@ -38,7 +38,7 @@ Orthotropic read_orthotropic(const Node& node, std::string_view keys) {
   return m;
 }
 
-// Of a group that says young or orthotropic.
+// From a group with young or orthotropic.
 Material read_elasticity(const Node& node, std::string_view keys) {
   Material material;
   if (node.has("orthotropic")) {

@@ -28,7 +28,7 @@ const std::array<KindKeys, 3> plate_kinds{
 
 const std::array<KindKeys, 5> link_kinds{{{"bar", {}}, {"eye bar", {}}, {"tapered bar", {}}, {"triangle", {}}, {"disc", {}}}};
 
-// A hole and what is around it.
+// A hole and its surrounding outline.
 std::pair<double, double> read_ring(const Node& node, std::string_view bore, std::string_view outer) {
   const Node inside = node.at(bore), outside = node.at(outer);
   const double b = read_size(inside), o = read_size(outside);
@@ -144,7 +144,7 @@ SceneFile read_file(const Node& plate) {
   return file;
 }
 
-// Plane strain asks more of a material than plane stress.
+// Plane strain needs more data of a material than plane stress.
 void validate_in_plane(const Node& node, const ScenePlate& plate) {
   try {
     plane_material(plate.material.material, plate.state);

@@ -31,7 +31,7 @@ ScenePathPoint read_place(const Node& node, const std::vector<ScenePoint>& point
   return out;
 }
 
-// Points and, between two of them, arcs.
+// Points and arcs between them.
 std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, const std::vector<ScenePoint>& points,
                                       const std::string& body) {
   std::vector<ScenePathPoint> out;
@@ -51,7 +51,7 @@ std::vector<ScenePathPoint> read_path(const Node& node, std::string_view keys, c
   return out;
 }
 
-// A file of two columns beside the scene.
+// A two-column file next to the scene.
 std::filesystem::path file_of(const Node& group) {
   const Node file = group.at("file");
   try {
@@ -75,7 +75,7 @@ std::vector<ScenePathPoint> read_spline(const Node& node, std::string_view keys,
   return out;
 }
 
-// Angles and radii, in `at`; they rise, and go round once at most.
+// Angles and radii, in `at`; the angles increase over at most one turn.
 std::vector<ScenePathPoint> read_polar(const Node& node, std::string_view keys) {
   std::vector<ScenePathPoint> out;
   const auto add = [&](double angle, double radius, const Node& where) {

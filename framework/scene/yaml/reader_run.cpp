@@ -12,7 +12,7 @@ void read_if(const Node& group, std::string_view key, const Dimension& expected,
   if (group.has(key)) value = group.at(key).quantity(expected);
 }
 
-// x and y of `both`, or each alone.
+// x and y from `both`, or each separately.
 void read_plane(const Node& group, std::string_view both, std::string_view x_key, std::string_view y_key, const Dimension& expected,
                 std::optional<double>& x, std::optional<double>& y) {
   if (group.has(both)) {
@@ -31,7 +31,7 @@ void reject(const Node& group, std::initializer_list<std::string_view> keys, con
     if (group.has(key)) group.at(key).fail(message);
 }
 
-// How a flexible body is bent at t = 0.
+// Deformation of a flexible body at t = 0.
 void read_bent(const Node& node, const SceneBody& body, StartBody& start) {
   for (const char* key : {"deflection", "modes"})
     if (node.has(key) && !(body.elastic && body.elastic->modes))
@@ -74,7 +74,7 @@ StartJournal read_start_journal(const Node& node) {
   return start;
 }
 
-/// Where the entries of a list are by their names, so that a long scene is read in a time that goes with its length.
+/// The entries of a list by name, so that reading a long scene takes linear time.
 template <class Entry>
 std::unordered_map<std::string, const Entry*> by_name(const std::vector<Entry>& all) {
   std::unordered_map<std::string, const Entry*> out;
@@ -144,7 +144,7 @@ const std::vector<ScenePoint>* points_of(const std::string& body, const Scene& s
   return found == scene.bodies.end() ? nullptr : &found->points;
 }
 
-// A point that is there; a body alone is the origin of its axes.
+// A point that exists; a body alone means the origin of its axes.
 PointRef read_known_point(const Node& node, const Scene& scene) {
   const PointRef ref = read_point_ref(node);
   const std::vector<ScenePoint>* points = points_of(ref.body, scene);
@@ -161,7 +161,7 @@ PointRef read_known_point(const Node& node, const Scene& scene) {
   node.fail(ref.body + " has no point \"" + ref.point + "\"." + did_you_mean(ref.point, known));
 }
 
-// Stress is where material is that deforms.
+// Stress exists only where material deforms.
 void must_have_stress(const Node& node, const PointRef& ref, const Scene& scene) {
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
   if (body == scene.bodies.end()) node.fail("the ground has no stress; name a point of a body with modes");

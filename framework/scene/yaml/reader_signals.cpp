@@ -1,4 +1,4 @@
-// What the scene says of signals: laws of them, states of its own, outputs.
+// The parts of a scene about signals: laws of them, own states, outputs.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -31,7 +31,7 @@ std::string json_quoted(const std::string& s) {
   return out + '"';
 }
 
-// What a table is read at: an expression, and what its column of the table is measured in.
+// The argument of a table: an expression, and the unit of its column in the table.
 struct TableAxis {
   MeasuredLaw law;
   std::string text;
@@ -69,7 +69,7 @@ std::string json_unit(const TableAxis& axis) {
   return json_quoted(axis.unit == 1 && si_unit(axis.law.dimension).empty() ? "1" : out.str());
 }
 
-// As `filled_in` turns it back into keys.
+// In a form that `filled_in` converts back to keys.
 std::string signal_table_text(const Node& node, const std::vector<TableAxis>& axes, const char* interpolation, bool periodic,
                               Outside outside, double value_unit, const std::string& value_si) {
   const auto listed = [&](const auto& word) {
@@ -110,7 +110,7 @@ void must_be_of_time(const Node& node) {
     if (node.has(key)) node.at(key).fail("is for a table over signals; add over: crank.angle, or leave it out");
 }
 
-// The same formula, input i of which is called to[i] now.
+// The same formula with input i renamed to[i].
 SignalFormula renumbered(const Law& law, const std::vector<int>& to) {
   if (law.constant) return SignalFormula(Program{{{Op::constant, law.at(0).value}}});
   Program program = law.signals.empty() ? *law.at.target<Program>() : law.of_signals.target<SignalFormula>()->program;
@@ -192,7 +192,7 @@ Law read_rate(const Node& node, const Dimension& d, const Scene& scene, const Si
   return read_time_law(node, d, Smoothness::load, node.source().folder, scene.has_run ? scene.run.until : 0);
 }
 
-// What a table gives is measured in its `value unit`.
+// The values of a table are in its `value unit`.
 SceneOutput read_table_output(const Node& node, const SignalNames& names) {
   constexpr const char* keys = "outputs.*";
   check_keys(node, keys);
@@ -206,7 +206,7 @@ SceneOutput read_table_output(const Node& node, const SignalNames& names) {
   return {node.name(), read_signal_table(node, keys, d, node.source().folder, names), si_unit(d), node.place()};
 }
 
-// Does an output name another, itself or by those that it names?
+// Does an output name another, directly or through other outputs?
 bool needs(const std::vector<Node>& outputs, const Node& one, const std::string& name, std::set<std::string>& seen) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   const auto names = [&](const std::string& text, const std::string& word) {
@@ -220,7 +220,7 @@ bool needs(const std::vector<Node>& outputs, const Node& one, const std::string&
          std::ranges::any_of(outputs, [&](const Node& next) { return names(text, next.name()) && needs(outputs, next, name, seen); });
 }
 
-// An output that names one that is not read yet.
+// An output that names one that has not been read yet.
 [[noreturn]] void fail_of_order(const std::vector<Node>& outputs, const Node& node, const Node& named) {
   const std::string begun = "\"" + node.yaml().text + "\": ";
   std::set<std::string> seen;
@@ -231,7 +231,7 @@ bool needs(const std::vector<Node>& outputs, const Node& one, const std::string&
             node.name());
 }
 
-// A name that an expression can tell from all others.
+// A name that cannot be confused with others in an expression.
 void check_signal_name(const Node& node, const Scene& scene, const char* what) {
   const std::string name = checked_name(node);
   if (const std::string fault = fault_of_name(name);

@@ -41,7 +41,7 @@ const SceneBody& body_of(const Node& node, const Scene& scene) {
   return elastic_named(node, elastic.front(), scene);
 }
 
-// Whether a body is loaded or touched in the case.
+// Whether a body is loaded or in contact in the case.
 bool takes_part(const SceneStatic& statics, const std::string& body, bool as_loaded = true) {
   return (as_loaded && statics.body == body) ||
          std::ranges::any_of(statics.contacts, [&](const SceneStaticContact& c) { return c.first.body == body || c.second.body == body; });
@@ -51,7 +51,7 @@ void must_have(const Node& node, const char* key, const std::string& example) {
   if (!node.has(key)) node.fail(std::string("lacks a required key; add for example ") + key + ": " + example);
 }
 
-// What the load takes hold of: a point is known here, a group only to the mesh.
+// The place where the load acts: points are known here, groups only to the mesh.
 void read_place(const Node& node, const SceneBody& body, SceneStaticLoad& load) {
   switch (load.kind) {
     case Kind::force:
@@ -98,7 +98,7 @@ SceneStaticLoad read_load(const Node& node, const SceneBody& body) {
   return load;
 }
 
-// "pin.outline": a group is known to the mesh alone.
+// "pin.outline": a group is known only to the mesh.
 SceneStaticContact::Side read_side(const Node& node, const Scene& scene) {
   const std::string text = node.text("a body and its edge or hole, such as pin.outline");
   const std::size_t dot = text.find('.');

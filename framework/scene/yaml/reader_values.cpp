@@ -37,7 +37,7 @@ double unit_factor(const Node& group, std::string_view key, const Dimension& exp
 
 namespace {
 
-// The law as text that filled_in can turn back into keys: flow YAML, which is JSON.
+// The law as text that filled_in can convert back to keys: flow YAML, which is JSON.
 std::string table_text(const std::string& file, bool linear, double time_unit, double value_unit, const Dimension& expected) {
   const auto escaped = [](const std::string& s) {
     std::string out;

@@ -9,7 +9,7 @@ namespace {
 
 using presence::optional, presence::required;
 
-// Groups that stand in several places.
+// Groups that occur in several places.
 const std::vector<Key> orthotropic_keys{
     {"young", required, "[140 GPa, 10 GPa]"}, {"poisson", required, "0.3"}, {"shear", required, "5 GPa"}, {"angle"}};
 const std::vector<Key> section_keys{{"rectangle"}, {"circle"}, {"tube"}, {"i"}, {"area"}, {"second moment"}, {"fibre"}, {"shear factor"}};
@@ -80,7 +80,7 @@ std::vector<Key> joint_keys() {
   return keys;
 }
 
-/// Of a law of normal force; in the bearing of a joint with keys of its own.
+/// For a law of normal force; additional keys in the bearing of a joint.
 std::vector<Key> normal_law_keys(const std::vector<Key>& of_bearings) {
   std::vector<Key> keys{{"restitution"}, {"young"},    {"poisson"},        {"stiffness"},
                         {"damping"},     {"exponent"}, {"slowest impact"}, {"approach speed", optional, "", {"onset", "largest"}},
@@ -90,7 +90,7 @@ std::vector<Key> normal_law_keys(const std::vector<Key>& of_bearings) {
   return keys;
 }
 
-/// What clearances and contacts say alike of their laws.
+/// Keys of contact laws common to clearances and contacts.
 void add_contact_laws(const std::string& path, std::vector<KeyTable>& tables) {
   tables.push_back({path + ".normal.*.second", material_keys});
   tables.push_back({path + ".friction", friction_laws});

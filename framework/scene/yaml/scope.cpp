@@ -20,7 +20,7 @@ std::string with_unit(const Quantity& q) {
   return out + (unit.empty() ? ")" : " " + unit + ")");
 }
 
-// The length of the number or name that begins here; 1 of anything else.
+// The length of the number or name that begins here; otherwise 1.
 std::size_t word_length(std::string_view rest) {
   if (begins_name(rest.front())) return static_cast<std::size_t>(std::ranges::find_if_not(rest, within_name) - rest.begin());
   double value = 0;
@@ -29,7 +29,7 @@ std::size_t word_length(std::string_view rest) {
   return number && end != rest.data() ? static_cast<std::size_t>(end - rest.data()) : 1;
 }
 
-// The longest of the names that the text begins with, where `goes_on` says that it is the whole name.
+// The longest name that the text begins with, where `goes_on` checks that the name is complete.
 template <class Names, class GoesOn>
 void take_longest(const Names& names, std::string_view rest, GoesOn goes_on, std::string_view& longest) {
   for (const auto& entry : names) {
@@ -43,7 +43,7 @@ void take_longest(const Names& names, std::string_view rest, GoesOn goes_on, std
   }
 }
 
-// The name of a part of an instance that the text begins with, as the scope knows it; empty if there is none.
+// The name of a part of an instance, known to the scope, that the text begins with; empty if there is none.
 std::string_view part_ahead(std::string_view rest, const Source& source, int scope) {
   const auto dot = [](std::string_view after) { return after.starts_with('.'); };
   const auto space = [](std::string_view after) { return after.starts_with(' ') && after.find('.') != std::string_view::npos; };
@@ -105,7 +105,7 @@ SpelledOut spelled_out(const std::string& expression, const Source& source, int 
     } else {
       out.text += word;
     }
-    if (begins && rest.starts_with('.')) {  // what follows is a column or a point, not a name of its own
+    if (begins && rest.starts_with('.')) {  // a column or a point follows, not a separate name
       const std::size_t end =
           std::min(rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789.", 1), rest.size());
       out.text += rest.substr(0, end);

@@ -10,7 +10,7 @@ namespace pintle {
 
 namespace {
 
-// Builds the tree from yaml-cpp's events, so that keys keep their lines and nothing is shared.
+// Builds the tree from yaml-cpp's events, so that keys keep their lines and no nodes are shared.
 class TreeBuilder : public YAML::EventHandler {
  public:
   explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
@@ -45,7 +45,7 @@ class TreeBuilder : public YAML::EventHandler {
   struct Open {
     Yaml yaml;
     std::set<std::string> seen = {};  // keys so far
-    std::string key = {};             // waiting for its value
+    std::string key = {};             // key waiting for its value
     int key_line = 0;
     bool has_key = false;
   };

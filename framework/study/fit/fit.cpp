@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using clock = std::chrono::steady_clock;
 
-/// Cases by their number: what a journal holds is not run again.
+/// Cases by their number: those in the journal are not run again.
 class Evaluations {
  public:
   Evaluations(const FitPlan& plan, const fs::path& folder, const FitSettings& settings, FitEnd& end)
@@ -62,7 +62,7 @@ class Evaluations {
   }
   bool stopped() const { return stopped_; }
 
-  /// What ran of some numbers.
+  /// Collects the results of a range of numbers.
   void take(std::size_t first, std::size_t count, const std::string& phase, std::vector<Trying>& out) const {
     for (std::size_t k = first; k < first + count; ++k)
       if (rows_[k].number > 0) out.push_back({phase, rows_[k], worths_[k]});
@@ -131,13 +131,13 @@ class Evaluations {
   std::atomic<bool> stopped_ = false;
 };
 
-/// A point and what it is worth.
+/// A point and its value.
 struct Tried {
   BoxPoint u;
   Worth worth;
 };
 
-/// One search by some methods in turn, with so many evaluations; numbers from `first` on.
+/// One search by several methods in turn, with a given number of evaluations; cases are numbered from `first`.
 class Descent {
  public:
   Descent(const FitPlan& plan, Evaluations& evaluations, std::size_t first, std::size_t share)
@@ -171,7 +171,7 @@ class Descent {
   const Tried& best() const { return best_; }
 
  private:
-  /// To a method that knows no limits, a point beyond them is not known.
+  /// For a method without constraints, a point that violates them counts as unknown.
   const Worth* look(const BoxPoint& u) {
     static const Worth beyond{};
     const Worth* found = find(u);
@@ -191,7 +191,7 @@ class Descent {
   const FitPlan& plan_;
   Evaluations& evaluations_;
   std::size_t first_, share_, used_ = 0;
-  bool within_ = false;  ///< points beyond the limits are hidden
+  bool within_ = false;  ///< points that violate constraints are hidden
   Tried best_;
   std::map<BoxPoint, Worth> seen_;
 };
@@ -202,8 +202,7 @@ double apart(const BoxPoint& a, const BoxPoint& b) {
   return out;
 }
 
-/// Where searches begin: at the study's start, then at the best of the other first points, a tenth of the box from each other as far as
-/// there are such.
+/// Starting points of searches: the study's start, then the best of the other first points, where possible a tenth of the box apart.
 std::vector<Tried> chosen_starts(const FitPlan& plan, const std::vector<Tried>& first) {
   constexpr double near = 0.1;
   std::vector<const Tried*> order;
@@ -220,7 +219,7 @@ std::vector<Tried> chosen_starts(const FitPlan& plan, const std::vector<Tried>& 
   return out;
 }
 
-/// The best of what was tried in these phases.
+/// The best result of these phases.
 std::optional<std::size_t> best_of(const std::vector<Trying>& tried, const std::string& phase = "") {
   std::optional<std::size_t> out;
   for (std::size_t k = 0; k < tried.size(); ++k)
@@ -271,7 +270,7 @@ void search_all(const FitPlan& plan, Evaluations& evaluations, const FitSettings
   evaluations.take(first_left, left, "last search", end.tried);
 }
 
-/// path.csv: the points of a path and where the curve of the best case passes them.
+/// path.csv: the points of a path, and where the curve of the best case passes them.
 std::string path_csv(const FitPlan& plan, const FitEnd& end) {
   const Measure& m = plan.base.study.measures[plan.goal.measure];
   CaseLimits limits;

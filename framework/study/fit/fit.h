@@ -9,10 +9,10 @@
 #include "framework/study/fit/goal.h"
 #include "framework/study/sweep/sweep.h"
 
-/// Parameters that reach a goal: docs/studies.md.
+/// Parameters that achieve a goal: docs/studies.md.
 namespace pintle {
 
-/// What may change.
+/// A parameter that may change.
 struct Variable {
   std::string name;
   ValueSpan span;
@@ -20,26 +20,26 @@ struct Variable {
 
 struct FitPlan {
   Sweep base;         ///< the study, and as its cases the first points: the start, then a Latin hypercube
-  CaseSource source;  ///< of the scene as it will be written: without what holds for the search alone
+  CaseSource source;  ///< of the scene as it will be written: without settings that apply only to the search
   std::vector<Variable> variables;
   Goal goal;
-  std::optional<Optimiser> method;  ///< none: chosen
-  std::size_t starts = 1;           ///< searches, each from another of the first points
-  std::size_t evaluations = 1000;   ///< cases in all, at most
+  std::optional<Optimiser> method;  ///< none: default
+  std::size_t starts = 1;           ///< number of searches, each from another of the first points
+  std::size_t evaluations = 1000;   ///< total number of cases, at most
   std::uint64_t seed = 1;
-  double precision = 1e-6, step = 1e-4;  ///< shares of the variables' spans, of the point found and of differences
+  double precision = 1e-6, step = 1e-4;  ///< relative to the variables' spans: precision of the result, and step of differences
 
   BoxPoint point(std::size_t k) const;  ///< of case k of the first points
   Overrides overrides(const BoxPoint&) const;
-  /// Methods of a search, one after the other.
+  /// Methods of a search, in sequence.
   std::vector<Optimiser> methods() const;
-  std::size_t share() const;  ///< evaluations of each start
+  std::size_t share() const;  ///< evaluations per start
 };
 
 /// Reads a study with `vary`, `goal` and `fit`. @throws SceneError
 FitPlan read_fit(const std::filesystem::path&, const Overrides& set = {});
 
-/// A case that was tried.
+/// A case that was evaluated.
 struct Trying {
   std::string phase;  ///< "first points", "start 2", "last search"
   Row row;            ///< its values: those of the variables (SI), then of the measures
@@ -50,14 +50,14 @@ struct FitEnd {
   bool stopped = false;
   std::size_t workers = 1;
   std::vector<std::string> notes;
-  std::vector<Trying> tried;                        ///< in an order that does not depend on the workers
-  std::optional<std::size_t> best;                  ///< of them
-  std::vector<std::string> ends;                    ///< of each search, how it ended
+  std::vector<Trying> tried;                        ///< in an order independent of the worker threads
+  std::optional<std::size_t> best;                  ///< index into these
+  std::vector<std::string> ends;                    ///< of each search, the reason for its end
   std::vector<std::optional<std::size_t>> best_of;  ///< of each search
   std::size_t before = 0;                           ///< cases of earlier sessions
   double seconds = 0;
 
-  bool meets(const FitPlan&) const;  ///< the best meets all bounds, and the goal where it can be missed
+  bool meets(const FitPlan&) const;  ///< the best satisfies all bounds, and the goal if it has a tolerance
 };
 
 struct FitSettings {
@@ -65,25 +65,25 @@ struct FitSettings {
   std::function<bool(std::size_t done, std::size_t most)> progress = {};  ///< false: stop
 };
 
-/// Searches, and leaves in `folder`: fit.csv, fit.json, fitted.yaml, study.yaml, scene.yaml, journal-0.txt. The same bits for any number
-/// of threads, and after any end.
+/// Searches, and writes into `folder`: fit.csv, fit.json, fitted.yaml, study.yaml, scene.yaml, journal-0.txt. The same bits for any number
+/// of threads, and after any interruption.
 /// @throws SceneError, std::runtime_error  as run_sweep
 FitEnd run_fit(const FitPlan&, const std::filesystem::path& folder, const FitSettings&);
 
-/// Values of a tried case, by what they are of.
+/// Values of an evaluated case: of a variable, of the measures.
 double variable_value(const Trying&, std::size_t variable);
 std::vector<double> measured_values(const FitPlan&, const Trying&);
-/// The best point as overrides of the scene. @pre there is one
+/// The best point as overrides of the scene. @pre it exists
 Overrides best_point(const FitPlan&, const FitEnd&);
 /// Headers with units.
 std::string variable_header(const Variable&);
 std::string measured_header(const FitPlan&, const FitEnd&, std::size_t measure);
-/// Searches that ended at the best point, to a thousandth of each span.
+/// Number of searches that ended at the best point, to a thousandth of each span.
 std::size_t agreeing(const FitPlan&, const FitEnd&);
 
 std::string fit_csv(const FitPlan&, const FitEnd&);
 std::string fit_json(const FitPlan&, const FitEnd&);
-/// The scene with the best point. @pre there is one
+/// The scene with the best point. @pre it exists
 std::string fitted_scene(const FitPlan&, const FitEnd&, const std::filesystem::path& folder);
 
 }  // namespace pintle

@@ -18,14 +18,14 @@ using Json = nlohmann::ordered_json;
 
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
-/// The unit that a case knows.
+/// The unit, from a case that has it.
 std::string unit_of_measure(const FitEnd& end, std::size_t m) {
   for (const Trying& t : end.tried)
     if (m < t.row.units.size() && !t.row.units[m].empty()) return t.row.units[m];
   return "";
 }
 
-/// Whether a variable of the best point lies where its span ends.
+/// Whether a variable of the best point is at an end of its span.
 bool at_an_end(const Variable& v, double x) {
   const double u = v.span.where(x);
   return u < 1e-6 || u > 1 - 1e-6;

@@ -24,7 +24,7 @@ std::vector<Variable> read_variables(const Node& root) {
   return out;
 }
 
-/// Where the study begins in one variable: `start`, or the middle.
+/// Initial value of a variable: `start`, or the middle.
 double start_of(const Node& entry, const Variable& v) {
   if (!entry.has("start")) return 0.5;
   const Quantity start = read_value(entry.at("start"));
@@ -75,7 +75,7 @@ double share_of_span(const Node& section, const char* key, double otherwise) {
 
 constexpr std::size_t most_evaluations = most_cases, most_values = 20'000'000;
 
-/// How many cases there are, and of what kind.
+/// The numbers of cases of each kind.
 std::size_t read_counts(const Node& root, FitPlan& plan) {
   static const Yaml nothing{Yaml::Kind::map, 0, {}, {}, {}};
   const Node section = root.has("fit") ? root.at("fit") : Node(nothing, root.source(), root.place());
@@ -117,9 +117,9 @@ Overrides FitPlan::overrides(const BoxPoint& u) const {
 
 std::vector<Optimiser> FitPlan::methods() const {
   if (method) return {*method};
-  // A peak or a range has kinks along valleys, in which models of the measure stay stuck and simplices do not.
+  // Peaks and ranges have kinks along valleys, where methods that model the measure get stuck, but simplex methods do not.
   if (!goal.bounds.empty()) return {Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::nelder_mead};
-  if (variables.size() < 2) return {Optimiser::sbplx};  // bobyqa wants two
+  if (variables.size() < 2) return {Optimiser::sbplx};  // bobyqa needs two
   return {Optimiser::bobyqa, Optimiser::nelder_mead, Optimiser::nelder_mead};
 }
 

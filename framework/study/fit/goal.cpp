@@ -11,7 +11,7 @@ namespace pintle {
 
 namespace {
 
-/// "N m", "1/s", or nothing; a unit that the language does not write (of modal coordinates) takes bare numbers.
+/// "N m", "1/s", or nothing; values in a unit that the language does not have (of modal coordinates) are bare numbers.
 Quantity one_of_unit(const std::string& unit) {
   try {
     if (!unit.empty()) return read_quantity(unit.starts_with("1/") ? unit : "1 " + unit);
@@ -20,13 +20,13 @@ Quantity one_of_unit(const std::string& unit) {
   return {1, {}};
 }
 
-/// The scene that words are judged by, and the study to which they are added.
+/// The scene against which words are checked, and the study to which measures are added.
 struct GoalReader {
   const StudyFile& file;
   Study& study;
   Scene scene = common_scene(file.study.scene);
 
-  /// The measure of this name or in these words.
+  /// The measure with this name or these words.
   std::size_t measure(const Node& at, const std::string& words) const {
     for (std::size_t i = 0; i < study.measures.size(); ++i)
       if (study.measures[i].name == words || (study.measures[i].words == words && file.study.scene.situations.empty())) return i;

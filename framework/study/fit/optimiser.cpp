@@ -32,7 +32,7 @@ constexpr std::array optimisers{OptimiserFacts{Optimiser::bobyqa, "bobyqa", NLOP
 
 const OptimiserFacts& facts(Optimiser m) { return *std::ranges::find(optimisers, m, &OptimiserFacts::method); }
 
-/// A search as NLopt sees it: values and constraints, asked for one by one, of the point that was worked out last.
+/// A search as seen by NLopt: values and constraints, requested one by one, at the last evaluated point.
 class Searching {
  public:
   Searching(const SearchSettings& settings, const WorthAt& worth)
@@ -79,7 +79,7 @@ class Searching {
     for (unsigned i = 0; gradient && i < m; ++i) std::ranges::copy(s.slope_[i + 1], gradient + i * n);
   }
 
-  /// The worth of a point; of one that is not known, and once the search is to end, worse than all that were seen.
+  /// The value of a point; for an unknown one, and once the search is to end, worse than all seen so far.
   Worth ask(const BoxPoint& x) {
     const Worth* found = trouble_ || ended_ ? nullptr : worth_(x);
     if (!found) {
@@ -119,7 +119,7 @@ class Searching {
     }
   }
 
-  /// Central differences, one-sided where the box ends or a neighbour is not known.
+  /// Central differences, one-sided at the ends of the box or where a neighbour is unknown.
   void find_slopes() {
     slope_.assign(settings_.constraints + 1, BoxPoint(n(), 0.0));
     const auto part = [](const Worth& w, std::size_t row) { return row == 0 ? w.value : w.excess[row - 1]; };
@@ -142,9 +142,9 @@ class Searching {
   const WorthAt& worth_;
   std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> opt_;
   BoxPoint x_;
-  Worth here_, seen_;  ///< at x_; the greatest value and excesses so far
+  Worth here_, seen_;  ///< at x_; the largest value and excesses so far
   double least_ = 0;
-  double unit_ = 1;  ///< the first value: to methods by gradient the first step is about as long as the slope
+  double unit_ = 1;  ///< the first value: the first step of gradient methods is about as long as the slope
   bool any_ = false, ended_ = false, good_ = false;
   std::vector<BoxPoint> slope_;  ///< of the value, then of each excess
   std::exception_ptr trouble_;

@@ -6,33 +6,33 @@
 #include <string>
 #include <vector>
 
-/// The search for the least value in a box, by NLopt. The one file that knows NLopt is optimiser.cpp.
+/// Minimisation in a box, by NLopt. Only optimiser.cpp uses NLopt.
 namespace pintle {
 
 enum class Optimiser { bobyqa, cobyla, nelder_mead, sbplx, slsqp, mma, direct, crs, isres };
 
 const char* name_of(Optimiser);
-/// Wants differences for the gradient.
+/// Needs finite differences for the gradient.
 bool by_gradient(Optimiser);
-/// Looks all over the box, not from a start downwards.
+/// Searches the whole box instead of descending from a start.
 bool looks_everywhere(Optimiser);
 bool takes_constraints(Optimiser);
 
-/// What a point is worth.
+/// Value of a point.
 struct Worth {
-  bool known = false;               ///< false: the mechanism could not be measured there
-  double value = 0;                 ///< to be made small
-  std::vector<double> excess = {};  ///< of each constraint, met where ≤ 0
+  bool known = false;               ///< false: the mechanism could not be evaluated there
+  double value = 0;                 ///< to be minimised
+  std::vector<double> excess = {};  ///< of each constraint, satisfied where ≤ 0
 
-  double worst() const;  ///< the greatest excess; 0 where all are met
+  double worst() const;  ///< the largest excess; 0 if all are satisfied
 };
-/// Both known: less excess, or with none the less value.
+/// Both known: smaller excess, or if there is none, smaller value.
 bool better(const Worth&, const Worth&);
 
 /// A point of the box [0, 1]ⁿ.
 using BoxPoint = std::vector<double>;
 
-/// What is searched. @returns nothing to end the search: stopped, or out of evaluations
+/// The function to be minimised. @returns nullptr to end the search: stopped, or out of evaluations
 using WorthAt = std::function<const Worth*(const BoxPoint&)>;
 
 struct SearchSettings {
@@ -40,17 +40,17 @@ struct SearchSettings {
   BoxPoint start;
   std::size_t constraints = 0;
   double first_step = 0.1;   ///< share of the box
-  double precision = 1e-6;   ///< share of the box to which a point is to be found
+  double precision = 1e-6;   ///< precision of the result, share of the box
   double difference = 1e-4;  ///< of gradients, share of the box
-  double good_enough = -1;   ///< a value at which to end; below 0: none
-  std::uint64_t seed = 1;    ///< of methods that look everywhere
+  double good_enough = -1;   ///< a value at which to end; negative: none
+  std::uint64_t seed = 1;    ///< for methods that search the whole box
 };
 
-/// Excess up to which a constraint counts as met, of its limit.
+/// Excess up to which a constraint counts as satisfied, relative to its limit.
 inline constexpr double met_within = 1e-6;
 
-/// Searches until it has converged or `worth` has nothing more to say. Points that are not known are passed as worse than all that the
-/// search has seen. What was found is known to `worth`, which sees every point. Deterministic; one thread.
+/// Searches until it has converged or `worth` returns nothing. Unknown points are treated as worse than all points seen. `worth` sees every
+/// point, including the result. Deterministic; one thread.
 /// @throws what `worth` throws
 /// @returns how it ended, in words
 std::string search(const SearchSettings&, const WorthAt& worth);

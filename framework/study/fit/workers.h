@@ -12,9 +12,9 @@
 
 namespace pintle {
 
-/// Does task(0) … task(count − 1) by some threads, each drawing the next; `poll` is called some ten times a second by the caller. Where
-/// the system gives no thread the caller does the tasks, which then must call `poll` themselves.
-/// @returns threads that worked, the caller included if it did
+/// Executes task(0) … task(count − 1) in several threads, each drawing the next task; the caller calls `poll` about ten times a second. If
+/// the system provides no threads, the caller executes the tasks, which must then call `poll` themselves.
+/// @returns number of threads that worked, including the caller if it did
 /// @throws what a task throws, when all have ended
 inline std::size_t share_out(std::size_t count, int threads, const std::function<void(std::size_t)>& task,
                              const std::function<void()>& poll) {

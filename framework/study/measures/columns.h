@@ -14,7 +14,7 @@ class Columns {
  public:
   explicit Columns(const Run& run) : run_(run) {}
 
-  /// Index in the table, or −1. `exact`: nothing but the unit may follow; else also " on BODY".
+  /// Index in the table, or −1. `exact`: only the unit may follow; otherwise also " on BODY".
   static int index(const Table& table, const std::string& name) {
     for (std::size_t c = 0; c < table.columns(); ++c)
       if (table.header[c].starts_with(name + " [") || table.header[c].starts_with(name + " on ")) return static_cast<int>(c);
@@ -22,7 +22,7 @@ class Columns {
   }
   bool has(const std::string& name) const { return index(run_.trajectory, name) >= 0; }
   std::vector<double> times() const { return column(run_.trajectory, 0); }
-  /// Empty if there is none of that name.
+  /// Empty if there is no column of this name.
   std::vector<double> motion(const std::string& name) const {
     const int c = index(run_.trajectory, name);
     return c < 0 ? std::vector<double>{} : column(run_.trajectory, static_cast<std::size_t>(c));
@@ -31,7 +31,7 @@ class Columns {
     const int c = index(run_.ledger, name);
     return c < 0 ? std::vector<double>{} : column(run_.ledger, static_cast<std::size_t>(c));
   }
-  /// Sum of the ledger's columns that `wanted` takes, of their names without unit.
+  /// Sum of the energy-balance columns whose names without unit satisfy `wanted`.
   std::vector<double> sum(const std::function<bool(const std::string&)>& wanted) const {
     std::vector<double> out(run_.ledger.rows(), 0.0);
     for (std::size_t c = 0; c < run_.ledger.columns(); ++c) {

@@ -23,7 +23,7 @@ std::vector<double> lengths(const std::vector<double>& x, const std::vector<doub
   return out;
 }
 
-/// A column that is the rate of another.
+/// The column for the rate of another.
 std::string rate_of(const std::string& part) {
   for (const auto& [of, rate] :
        {std::pair{"x", "vx"}, {"y", "vy"}, {"vx", "ax"}, {"vy", "ay"}, {"angle", "speed"}, {"speed", "alpha"}, {"depth", "rate"}})
@@ -31,7 +31,7 @@ std::string rate_of(const std::string& part) {
   return "";
 }
 
-/// One measure of one run.
+/// Evaluates one measure of one run.
 class Measuring {
  public:
   Measuring(const Asked& asked, const Scene& scene, const Model& model, const Run& run)
@@ -52,7 +52,7 @@ class Measuring {
     all.t = columns_.times();
     if (all.t.back() < to - slack) return nan;  // the last rows are missing
     if (asked_.instant) return value_at(all, from);
-    if (asked_.statistic == Statistic::none && !asked_.frequency)  // what has gathered
+    if (asked_.statistic == Statistic::none && !asked_.frequency)  // cumulative quantities
       return value_at(all, to) - (from > 0 ? value_at(all, from) : 0);
     return statistic(between(all, from, to), from, to);
   }
@@ -82,7 +82,7 @@ class Measuring {
   }
   double end_of(const Impact& i) const { return std::isnan(i.end) ? run_.t_end : i.end; }
 
-  /// Rows may miss the peak of an impact; what the integrator has seen of it does not.
+  /// Rows may miss the peak of an impact; the integrator's record does not.
   Extreme with_impacts(Extreme e, double from, double to) const {
     const bool force = asked_.what == What::force && (asked_.part.empty() || asked_.part == "normal");
     if (!force && asked_.what != What::depth) return e;
@@ -99,9 +99,9 @@ class Measuring {
     return n;
   }
   bool is_asked(std::size_t contact) const { return asked_.owner.empty() || model_.system.contact_names[contact] == asked_.owner; }
-  /// Its model, a massless link, never lets the journal go: at the wall, and no impact.
+  /// A massless link never releases the journal: it is always at the wall, without impacts.
   bool held(std::size_t contact) const { return is_held(model_.system.contacts[contact]); }
-  /// Stays at a wall, in order of beginning; of two profiles those of all their pairs.
+  /// Contacts with a wall, in order of their begin; for two profiles those of all their pairs.
   std::vector<const Impact*> stays(std::size_t contact) const {
     std::vector<const Impact*> out;
     const int first = static_cast<int>(contact), past = first + model_.system.contacts[contact].pairs;
@@ -109,7 +109,7 @@ class Measuring {
       if (i.contact >= first && i.contact < past) out.push_back(&i);
     return out;
   }
-  /// of(contact) for each that is asked about.
+  /// Calls of(contact) for each contact of the measure.
   template <class F>
   void each_contact(F of) const {
     for (std::size_t c = 0; c < model_.system.contacts.size(); ++c)
@@ -142,7 +142,7 @@ class Measuring {
     return longest;
   }
 
-  /// All rows; without rows: the scene has no such thing.
+  /// All rows; no rows: the scene has no such quantity.
   Signal signal() const {
     switch (asked_.what) {
       case What::force: return force();
@@ -164,7 +164,7 @@ class Measuring {
   }
 
   Signal zero() const { return {{}, std::vector<double>(run_.trajectory.rows(), 0.0), {}, true, true}; }
-  /// Forces and accelerations jump where journals meet walls.
+  /// Forces and accelerations jump where journals touch walls.
   Signal of(std::vector<double> y, bool magnitude = false) const {
     const bool jumps = std::ranges::any_of(model_.system.contacts, [](const ContactPair& c) { return !is_held(c); });
     return {{}, std::move(y), {}, !jumps, magnitude};
@@ -183,7 +183,7 @@ class Measuring {
     return of(lengths(columns_.motion(name + ".fx"), columns_.motion(name + ".fy")), true);
   }
 
-  /// Of an ideal joint: zero.
+  /// Zero for an ideal joint.
   Signal clearance(std::vector<double> y) const {
     if (y.empty() && joint_named(scene_, asked_.owner)) return zero();
     Signal out = of(std::move(y), true);
@@ -236,7 +236,7 @@ class Measuring {
     for (const char* part : {".von Mises", ".stress"})
       if (columns_.has(owner + part)) {
         Signal out = of(columns_.motion(owner + part), true);
-        out.smooth = false;  // of the worse fibre: it may have a kink at its peak
+        out.smooth = false;  // of the worse fibre: its peak may have a kink
         return out;
       }
     return {};
@@ -267,7 +267,7 @@ class Measuring {
 
   Signal energy() const {
     Signal out = zero();
-    if (const std::vector<double> y = columns_.book(asked_.part); !y.empty()) out.y = y;  // strain: none in a rigid scene
+    if (const std::vector<double> y = columns_.book(asked_.part); !y.empty()) out.y = y;  // strain: missing in a rigid scene
     out.magnitude = false;
     return out;
   }
@@ -323,7 +323,7 @@ void record(Scene& scene, const Asked& a) {
   }
 }
 
-/// The longest interval up to `most` of which all instants are multiples, if that does not take too many rows.
+/// The longest interval up to `most` such that all instants are multiples of it, if that does not need too many rows.
 double interval(double most, double until, std::vector<double> instants) {
   std::erase_if(instants, [&](double t) { return !(t > 0 && t < until * (1 - 1e-12)); });
   if (instants.empty()) return most;

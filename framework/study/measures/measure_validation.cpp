@@ -20,7 +20,7 @@ namespace {
   throw SceneError(m.file.empty() ? scene.file : m.file, place, "\"" + m.words + "\" " + message);
 }
 
-/// Of flexible bodies alone.
+/// Quantities that only flexible bodies have.
 bool elastic(const Asked& a) {
   constexpr std::array<std::string_view, 11> columns{"ux", "uy", "turn", "N", "V", "M", "stress", "sx", "sy", "txy", "von Mises"};
   if (a.what == What::stress || a.what == What::displacement || a.what == What::deflection) return true;
@@ -28,7 +28,7 @@ bool elastic(const Asked& a) {
          (std::ranges::find(columns, a.part) != columns.end() || a.part.starts_with("mode "));
 }
 
-/// The body that a measure is about; nullptr if it is none, or not one alone.
+/// The body of a measure; nullptr if there is none, or more than one.
 const SceneBody* body_of(const Asked& a, const Scene& scene) {
   const PointRef p = point_named(scene, a.owner);
   return body_named(scene, p.body.empty() ? a.owner : p.body);

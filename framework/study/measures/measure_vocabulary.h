@@ -5,7 +5,7 @@
 
 #include "framework/study/measures/measure_words.h"
 
-/// The words that measures are made of, longer before shorter where one begins like another.
+/// The words of measures; longer ones come first where one begins like another.
 namespace pintle {
 
 struct StatisticWord {
@@ -38,7 +38,7 @@ inline constexpr std::array statistic_words{StatisticWord{"range of", Statistic:
 struct MotionWord {
   const char *words, *part, *unit;
 };
-/// Longer before shorter. `speed` of a body is its turning, as in scenes; of a point its velocity's magnitude.
+/// Longer ones first. `speed` of a body is its angular velocity, as in scenes; of a point the magnitude of its velocity.
 inline constexpr std::array motion_words{MotionWord{"angular acceleration", "alpha", "rad/s^2"},
                                          MotionWord{"angular velocity", "spin", "rad/s"},
                                          MotionWord{"angular speed", "spin", "rad/s"},

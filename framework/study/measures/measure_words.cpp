@@ -93,7 +93,7 @@ class Reading {
     fail("\"" + rest + "\" begins with no " + kind + " of this scene." +
          (names.empty() ? std::string(" It has none.") : did_you_mean(rest.substr(0, rest.find(" at ")), names)) + described(measurables_));
   }
-  /// A name may follow: it does if the words behind "at" are one.
+  /// An optional name: it is present if the words after "at" are one.
   std::string may_have(const Names& names) {
     const std::size_t before = words_.place();
     words_.take_any({"at", "of", "in", "by"});
@@ -337,7 +337,7 @@ class Reading {
     if (!(asked_.to > 0)) fail("its window is empty");
   }
 
-  /// What the analysis does not know is refused; what statics knows is of its one instant.
+  /// Rejects what the analysis does not provide; statics provides only its single instant.
   void judge_question() {
     const Analysis analysis = measure_.question.analysis;
     if (analysis == Analysis::run) return;

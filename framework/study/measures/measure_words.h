@@ -6,7 +6,7 @@
 
 #include "framework/study/measures/measure.h"
 
-/// The words of a measure, read against the names of a scene. docs/studies.md has the grammar.
+/// The words of a measure, interpreted with the names of a scene. docs/studies.md has the grammar.
 namespace pintle {
 
 enum class Statistic { none, peak, greatest, least, mean, rms, range, last };
@@ -20,37 +20,37 @@ enum class What {
   depth,         ///< of a clearance, 0 where open
   stress,        ///< at a point
   displacement,  ///< of a point of a flexible body
-  deflection,    ///< of a flexible body: the greatest displacement in it
-  energy,        ///< part is the ledger's column
-  lost,          ///< part is what it is lost to, all if empty; owner: all if empty
+  deflection,    ///< of a flexible body: its largest displacement
+  energy,        ///< part is the energy-balance column
+  lost,          ///< part is the kind of loss, all if empty; owner: all if empty
   work,          ///< of a driver or load; all if the owner is empty
-  impacts,       ///< how many begin
+  impacts,       ///< number of impacts
   free_flight,   ///< the longest time between two contacts
-  contact_time,  ///< in contact, in all
+  contact_time,  ///< total time in contact
   written,       ///< an output or a state of the scene's own: the owner
-  path,          ///< distance of a point's curve to the measure's path
+  path,          ///< distance of a point's curve from the measure's path
   column         ///< of trajectory.csv or ledger.csv; part is its header without unit and body
 };
 
-/// What a measure asks for.
+/// Parsed form of a measure.
 struct Asked {
   Statistic statistic = Statistic::none;
-  bool time_of = false;    ///< when the statistic is reached
+  bool time_of = false;    ///< time at which the statistic is reached
   bool frequency = false;  ///< the dominant one
   What what = What::column;
   std::string owner = {};  ///< joint, driver, force, body or BODY.POINT
-  std::string other = {};  ///< of a distance
+  std::string other = {};  ///< for a distance
   std::string part = {};
   double from = 0, to = std::numeric_limits<double>::infinity();  ///< [s]; infinity: the end of the run
-  bool instant = false;                                           ///< the value at `from`, which is `to`
-  std::string unit = {};                                          ///< of the answer
+  bool instant = false;                                           ///< the value at `from`, which equals `to`
+  std::string unit = {};                                          ///< of the result
 };
 
 /// Grows with time, so that without a statistic its change in the window is meant.
 bool cumulative(What);
 
-/// @throws SceneError  the words cannot be read, name what the scene has not, or ask what the measure's question does not tell; says
-///                     what there is
+/// @throws SceneError  the words cannot be read, name something the scene lacks, or ask for something that the measure's analysis does not
+/// provide; lists what there is
 Asked read_measure(const Measure&, const Scene&);
 
 }  // namespace pintle

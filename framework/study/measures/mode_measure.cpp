@@ -23,7 +23,7 @@ struct PartWord {
   ModePart part;
   const char* unit;
 };
-/// Longer before shorter where one begins like another.
+/// Longer ones first where one begins like another.
 constexpr std::array part_words{PartWord{"natural frequency", ModePart::natural, "Hz"},
                                 PartWord{"undamped frequency", ModePart::natural, "Hz"},
                                 PartWord{"damped frequency", ModePart::frequency, "Hz"},
@@ -67,7 +67,7 @@ AskedMode read_mode_measure(const Measure& m, const Scene& scene) {
   if (known && of_body) {
     words.take_any({"of", "in"});
     out.body = words.rest();
-    elastic_of(scene, out.body);  // says what bodies there are
+    elastic_of(scene, out.body);  // reports the existing bodies
   } else if (known && !words.done()) {
     known = false;
   }
@@ -80,7 +80,7 @@ AskedMode read_mode_measure(const Measure& m, const Scene& scene) {
 double value_of(const AskedMode& asked, const Linearization& lin) {
   if (asked.number > static_cast<int>(lin.modes.size())) return no_mode;
   const LinearMode& mode = lin.modes[static_cast<std::size_t>(asked.number - 1)];
-  const double real = std::abs(mode.root.real()) <= mode.uncertainty ? 0 : mode.root.real();  // what rounding leaves is nothing
+  const double real = std::abs(mode.root.real()) <= mode.uncertainty ? 0 : mode.root.real();  // values within rounding count as zero
   switch (asked.part) {
     case ModePart::frequency: return mode.frequency();
     case ModePart::natural: return mode.natural();

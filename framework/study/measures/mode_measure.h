@@ -11,12 +11,12 @@ namespace pintle {
 
 struct AskedMode {
   enum class Part { frequency, natural, damping, decay, real, imaginary } part = Part::frequency;
-  int number = 1;         ///< from 1, in the order in which `pintle linearize` and `pintle modes` print them
-  std::string body = {};  ///< of `modes`; empty: the only one of elements
+  int number = 1;         ///< from 1, in the order of `pintle linearize` and `pintle modes`
+  std::string body = {};  ///< for `modes`; empty: the only body of elements
   const char* unit = "";
 };
 
-/// @throws SceneError  the words cannot be read, or name a body that has no modes
+/// @throws SceneError  the words cannot be read, or name a body without modes
 AskedMode read_mode_measure(const Measure&, const Scene&);
 
 /// NaN where there are fewer modes.

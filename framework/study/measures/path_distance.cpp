@@ -25,7 +25,7 @@ struct CurvePiece {
     const double x = cubic(c.x, c.vx, s), y = cubic(c.y, c.vy, s);
     return {c.t[i] + s * h(), x, y, std::hypot(x - to[0], y - to[1])};
   }
-  /// The nearest place, by golden sections: the distance has one minimum in a piece that is next to the nearest row.
+  /// The nearest position, by golden-section search: in a piece next to the nearest row the distance has one minimum.
   Passage nearest(const std::array<double, 2>& to) const {
     constexpr double golden = 0.6180339887498949;
     double a = 0, b = 1, u = 1 - golden, v = golden;
@@ -43,7 +43,7 @@ struct CurvePiece {
   }
 };
 
-/// On the pieces that meet at a row.
+/// The nearest position on the pieces that meet at a row.
 Passage nearest_about(const Curve2& c, std::size_t row, const std::array<double, 2>& to) {
   Passage best{c.t[row], c.x[row], c.y[row], std::hypot(c.x[row] - to[0], c.y[row] - to[1])};
   for (std::size_t i = row > 0 ? row - 1 : 0; i <= row && i + 1 < c.size(); ++i)
@@ -56,7 +56,7 @@ struct RowChoice {
   std::vector<std::size_t> rows;
 };
 
-/// Rows in ascending order, one for each point, with the least sum of squares: least[k][r], points up to k at rows up to r.
+/// Rows in ascending order, one for each point, with the least sum of squares: least[k][r] is for points up to k at rows up to r.
 RowChoice in_order(const std::vector<std::array<double, 2>>& points, const Curve2& c) {
   const std::size_t n = points.size(), m = c.size();
   std::vector<double> least(m, 0), next(m);
@@ -82,7 +82,7 @@ bool closes(const Curve2& c) {
   return std::hypot(c.x.back() - c.x.front(), c.y.back() - c.y.front()) <= 1e-6 * std::hypot(x1 - x0, y1 - y0);
 }
 
-/// The rows of the points, whichever of them the curve passes first.
+/// The rows of the points, whichever point the curve passes first.
 std::vector<std::size_t> rows_in_order(const PathTarget& target, const Curve2& c) {
   const std::size_t n = target.through.size();
   const bool closed = closes(c);

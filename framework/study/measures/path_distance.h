@@ -4,23 +4,23 @@
 #include <string>
 #include <vector>
 
-/// How far the curve of a point passes from the points that it is to pass.
+/// Distance of the curve of a point from the points that it should pass.
 namespace pintle {
 
 /// The order in which the curve passes the points of a target.
 enum class Passing { along, either_way, any };
 
-/// Points of the plane [m] that a point of a body is to pass, at given times or whenever it is nearest.
+/// Points in the plane [m] that a point of a body should pass, at given times or at any time.
 struct PathTarget {
   std::string point;  ///< BODY.POINT
   std::vector<std::array<double, 2>> through;
-  std::vector<double> times = {};  ///< one for each, or none [s]
+  std::vector<double> times = {};  ///< one for each point, or none [s]
   Passing order = Passing::either_way;
 
-  double extent() const;  ///< diagonal of the box about `through` [m]
+  double extent() const;  ///< diagonal of the bounding box of `through` [m]
 };
 
-/// A curve as rows of a run give it: places and velocities. Between rows it is their cubic.
+/// A curve from the rows of a run: positions and velocities. Between rows it is their cubic.
 struct Curve2 {
   std::vector<double> t, x, y, vx, vy;
   std::size_t size() const { return t.size(); }
@@ -32,8 +32,8 @@ struct Passage {
   double distance = 0;
 };
 
-/// For each point of the target the place of the curve that belongs to it: so that they stand in the target's order and the sum of
-/// squared distances is least. A closed curve may begin at any of the points. Empty where the curve does not cover the times.
+/// The position on the curve for each point of the target, such that they follow the target's order and the sum of squared distances is
+/// least. A closed curve may begin at any of the points. Empty where the curve does not cover the times.
 std::vector<Passage> passages(const PathTarget&, const Curve2&);
 
 /// Root of the mean squared distance [m]; NaN without passages.

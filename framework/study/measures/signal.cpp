@@ -22,7 +22,7 @@ struct Cubic {
     const double r = 1 - s;
     return r * r * ((1 + 2 * s) * a + s * h * da) + s * s * ((3 - 2 * s) * b - r * h * db);
   }
-  /// Where its rate vanishes inside, at most two places.
+  /// Positions inside at which its rate vanishes, at most two.
   std::vector<double> turns() const {
     const double c0 = h * da, c1 = -6 * (a - b) - 2 * h * (2 * da + db), c2 = 6 * (a - b) + 3 * h * (da + db);
     std::vector<double> out;
@@ -69,7 +69,7 @@ Signal negative(Signal x) {
   return x;
 }
 
-/// How much of the rows, weighed by w, the best a + b t + c cos ωt + d sin ωt explains beyond a + b t.
+/// The part of the rows' variance, weighted by w, that the best fit a + b t + c cos ωt + d sin ωt explains beyond a + b t.
 double explained(const std::vector<double>& y, const std::vector<double>& w, double turn) {
   const double n = static_cast<double>(y.size()), middle = (n - 1) / 2;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -94,7 +94,7 @@ std::vector<double> hann(std::size_t n) {
   return w;
 }
 
-/// The rows without mean and trend.
+/// The rows minus mean and trend.
 std::vector<double> levelled(const std::vector<double>& y) {
   const double n = static_cast<double>(y.size());
   double mean = 0, slope = 0, spread = 0;
@@ -200,9 +200,9 @@ double dominant_frequency(const Signal& x) {
   std::size_t top = first;
   for (std::size_t k = first; k <= size / 2; ++k)
     if (std::abs(spectrum[k]) > std::abs(spectrum[top])) top = k;
-  if (top == first && std::abs(spectrum[first - 1]) > std::abs(spectrum[first])) return no_frequency;  // slower than the window can tell
+  if (top == first && std::abs(spectrum[first - 1]) > std::abs(spectrum[first])) return no_frequency;  // slower than the window can resolve
 
-  // Near that line, the tone that fits best: what leaks from its own negative frequency, mean and trend is part of the fit.
+  // The best-fitting tone near that line: leakage from its own negative frequency, mean and trend is included in the fit.
   const double line = static_cast<double>(top) * spacing;
   double a = line - 0.5 / length, b = line + 0.5 / length;
   constexpr double golden = 0.6180339887498949;

@@ -9,7 +9,7 @@ namespace pintle {
 Derivative derivative(double step, const std::vector<double>& plus, const std::vector<double>& minus) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   Derivative best{nothing, nothing};
-  std::vector<double> above;  // the last row of Neville's table
+  std::vector<double> above;  // the previous row of Neville's table
   for (std::size_t k = 0; k < plus.size() && std::isfinite(plus[k]) && std::isfinite(minus[k]); ++k) {
     const double h = std::ldexp(step, -static_cast<int>(k));
     std::vector<double> row{(plus[k] - minus[k]) / (2 * h)};

@@ -9,20 +9,20 @@
 #include "framework/study/sensitivity/sobol.h"
 #include "framework/study/sweep/sweep.h"
 
-/// How measures depend on parameters, and how these scatter: docs/studies.md.
+/// Dependence of measures on parameters, and their scatter: docs/studies.md.
 namespace pintle {
 
-/// A parameter about its nominal value.
+/// A parameter near its nominal value.
 struct Scattered {
   std::string name;
   double at = 0;  ///< nominal, SI
   Dimension dimension;
-  double step = 0;  ///< of the widest difference
+  double step = 0;  ///< of the largest difference
   enum class Spread { none, uniform, normal } spread = Spread::none;
   double width = 0;  ///< half the width of a uniform spread, or the standard deviation
 
-  double drawn(double u) const;  ///< at u of [0, 1) of its distribution
-  double reach() const;          ///< from the nominal value to the worst: the width, or three standard deviations
+  double drawn(double u) const;  ///< value at u in [0, 1) of its distribution
+  double reach() const;          ///< distance of the worst value from the nominal one: the width, or three standard deviations
 };
 
 /// Cases in their order: the nominal one; for each parameter and level x + h/2ᵏ and x − h/2ᵏ; corners; the random sample; A, B and AB.
@@ -31,7 +31,7 @@ struct SensitivityPlan {
   std::vector<Scattered> parameters;
   std::size_t levels = 3;
   std::size_t corners = 0;  ///< all, or none
-  std::size_t random = 0;   ///< cases of the Monte Carlo sample
+  std::size_t random = 0;   ///< number of cases of the Monte Carlo sample
   std::size_t sobol = 0;    ///< points of each of A and B
   std::uint64_t seed = 1, sobol_seed = 1;
 
@@ -45,25 +45,25 @@ struct SensitivityPlan {
 /// Reads a study with a section `sensitivity`. @throws SceneError
 SensitivityPlan read_sensitivity(const std::filesystem::path&, const Overrides& set = {});
 
-/// Of one measure.
+/// Results for one measure.
 struct MeasureSensitivity {
   std::string header;  ///< with its unit
   double nominal = 0;
-  std::vector<Derivative> slopes;  ///< per parameter, measure's unit over the parameter's
+  std::vector<Derivative> slopes;  ///< per parameter, in the measure's unit over the parameter's
   double linear_worst = 0;         ///< Σ |slope| · reach
   struct Range {
     double least = 0, greatest = 0;
   };
-  std::optional<Range> corners = {};  ///< of the values there
+  std::optional<Range> corners = {};  ///< range of the values there
   struct Scatter {
     std::size_t cases = 0;
-    double mean = 0, deviation = 0, low = 0, high = 0;  ///< 95 % lie between
+    double mean = 0, deviation = 0, low = 0, high = 0;  ///< 95 % lie between low and high
   };
   std::optional<Scatter> scatter = {};
   std::vector<SobolIndex> shares = {};  ///< per parameter
 };
 
-/// What the rows of the sweep say. @pre rows in the order of their numbers
+/// Evaluates the rows of the sweep. @pre rows in the order of their numbers
 std::vector<MeasureSensitivity> sensitivities(const SensitivityPlan&, const std::vector<Row>& rows);
 
 std::string parameter_header(const Scattered&);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_parameters_of_corners = 10;
 
-/// The scene's parameters, overrides applied; a bare number keeps the parameter's unit.
+/// The scene's parameters with overrides applied; a bare number keeps the parameter's unit.
 Parameters parameters_of(const Yaml& scene, const Overrides& set) {
   Parameters out;
   const auto group = std::ranges::find(scene.items, "parameters", &Yaml::key);
@@ -31,7 +31,7 @@ Parameters parameters_of(const Yaml& scene, const Overrides& set) {
   return out;
 }
 
-/// What a path leads to; nullptr if it leads nowhere.
+/// The entry at a path; nullptr if there is none.
 const Yaml* at_path(const Yaml& scene, std::string_view path) {
   const Yaml* at = &scene;
   while (at && !path.empty()) {
@@ -84,7 +84,7 @@ Scattered read_parameter(const CaseSource& source, const Node& entry) {
   return out;
 }
 
-/// Appends a case in which every parameter has a value.
+/// Appends a case with a value for every parameter.
 void add_case(Cases& cases, const std::vector<Scattered>& parameters, const std::vector<double>& values) {
   std::vector<std::optional<std::string>> one;
   for (std::size_t i = 0; i < values.size(); ++i)

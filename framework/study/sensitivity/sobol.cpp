@@ -17,7 +17,7 @@ struct FirstAndTotal {
   double first, total;
 };
 
-/// Of the points `rows`, which a bootstrap may name several times.
+/// Estimates from the points `rows`, which a bootstrap may name several times.
 FirstAndTotal estimate(const SobolValues& v, std::size_t input, const std::vector<std::size_t>& rows) {
   const double n = static_cast<double>(rows.size());
   double mean = 0, variance = 0, first = 0, total = 0;

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// Processes, maybe on many machines, that do a sweep together; process 0 hands out the cases. Used by one thread of each.
+/// Processes, possibly on many machines, that run a sweep together; process 0 distributes the cases. Used by one thread of each.
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -14,7 +14,7 @@ class Communicator {
   virtual int size() const = 0;
   /// @pre not to itself
   virtual void send(int to, std::span<const std::int64_t>) = 0;
-  /// The next message, if one has come; never waits.
+  /// The next message, if one has arrived; never waits.
   virtual bool receive(int& from, std::vector<std::int64_t>&) = 0;
 };
 

@@ -32,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity and no NaN, and its numbers pass through many hands: these pass as text.
+// JSON has no infinity and no NaN, and its numbers may be changed by other programs: these are stored as text.
 std::string exact(double x) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, x).ptr};
@@ -45,7 +45,7 @@ double exact(const Json& text) {
   return out;
 }
 
-/// Of a count; JSON would turn what is no whole number, or below 0, into one.
+/// A count; JSON would silently convert a fraction or a negative number.
 template <class T>
 T count(const Json& j) {
   const auto x = j.is_number_integer() ? j.get<std::int64_t>() : -1;
@@ -74,7 +74,7 @@ std::string remedy(const fs::path& path) {
   return "name another directory with --out, or remove " + path.parent_path().string() + " and run the sweep again";
 }
 
-/// @returns false: there is none yet, as its process was killed while it wrote the first line
+/// @returns false: there is no heading yet, because its process was killed while writing it
 /// @throws OtherStudy, SceneError
 bool validate_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
   const std::string ours = heading(study);
@@ -110,12 +110,12 @@ bool within(double seconds, const std::function<bool()>& holds) {
   return true;
 }
 
-/// Where the file system has no locks, everything is free.
+/// On a file system without locks, everything counts as free.
 bool locked(int file, int how, double patience) {
   return within(patience, [&] { return ::flock(file, how | LOCK_NB) == 0 || errno != EWOULDBLOCK; });
 }
 
-/// What is said of a last line without its end.
+/// Note about an incomplete last line.
 std::string torn(const fs::path& path, const std::string& text) {
   const auto line = 1 + std::count(text.begin(), text.end(), '\n');
   return path.string() + ":" + std::to_string(line) +
@@ -158,7 +158,7 @@ std::optional<Row> row_of(std::string_view line) try {
   if (!j.at("values").is_array()) return {};
   for (const Json& x : j.at("values")) r.values.push_back(exact(x));
   return r;
-} catch (const Json::exception&) {  // sealed, but not what line_of writes
+} catch (const Json::exception&) {  // valid checksum, but not written by line_of
   return {};
 } catch (const std::invalid_argument&) {
   return {};

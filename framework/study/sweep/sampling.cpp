@@ -32,7 +32,7 @@ std::string decimal(double x) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
 }
 
-/// ratio^u by square roots and products alone, which every machine rounds alike; `pow` may differ in its last bit.
+/// ratio^u using only square roots and products, which every machine rounds equally; `pow` may differ in its last bit.
 double power(double ratio, double u) {
   double out = 1, root = ratio;
   if (u >= 1) return ratio;
@@ -70,7 +70,7 @@ std::vector<Node> named(const Node& section) {
   return entries;
 }
 
-/// How many values(node) has, without making them; 1 where it refuses the node.
+/// The number of values(node), without creating them; 1 where it rejects the node.
 std::size_t value_count(const Node& node) {
   if (node.is_list()) return std::max<std::size_t>(1, node.yaml().items.size());
   return node.is_map() && node.has("count") ? static_cast<std::size_t>(node.at("count").count(1)) : 1;
@@ -100,7 +100,7 @@ Cases grid(const Node& section) {
   return cases;
 }
 
-/// Before the values are made: a few lines could ask for more than any memory.
+/// Checked before the values are created: a few lines could request more than any memory.
 void validate_size(const Node& section, std::size_t cases, std::size_t names) {
   constexpr std::size_t most_values = 20'000'000;
   if (cases > most_values / std::max<std::size_t>(1, names))
@@ -237,7 +237,7 @@ double Span::at(double u) const {
 }
 
 Stream::Stream(std::uint64_t seed, std::string_view name) {
-  // A step of SplitMix64, so that neighbouring seeds share nothing.
+  // A step of SplitMix64, so that neighbouring seeds give independent streams.
   std::uint64_t z = seed * 0x9e3779b97f4a7c15u + fingerprint(name);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -247,7 +247,7 @@ Stream::Stream(std::uint64_t seed, std::string_view name) {
 double Stream::uniform() { return static_cast<double>(numbers_() >> 11) * 0x1p-53; }
 
 std::uint64_t Stream::below(std::uint64_t n) {
-  // The numbers below 2^64 mod n would come once too often.
+  // The numbers below 2^64 mod n would occur once too often.
   const std::uint64_t excess = (~n + 1) % n;
   for (;;)
     if (const std::uint64_t x = numbers_(); x >= excess) return x % n;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes the folder, or judges whether it is one to go on with.
+/// Creates the folder, or checks whether it can be continued.
 void open_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error))) {
@@ -36,11 +36,11 @@ std::string text_or_nothing(const fs::path& path) {
   try {
     return read_file(path, most_bytes);
   } catch (const FileRefused&) {
-    return {};  // then it is not what was kept there
+    return {};  // then it differs from the stored file
   }
 }
 
-/// Why the folder of another study is refused: what has changed since, as far as that is known.
+/// Why the folder of another study is rejected: what has changed, as far as known.
 std::string what_differs(const Sweep& sweep, const fs::path& folder) {
   const auto differs = [&](const char* name, const std::string& now) {
     return fs::exists(folder / name) && text_or_nothing(folder / name) != now;

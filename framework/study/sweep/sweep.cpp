@@ -18,20 +18,20 @@ namespace {
 namespace fs = std::filesystem;
 using clock = std::chrono::steady_clock;
 
-/// What the processes say to each other: the first number of a message.
+/// Messages between the processes: the first number of a message.
 enum Word : std::int64_t {
   go,      ///< 0 to all: the folder is ready
   reject,  ///< 0 to all: there is nothing to do
   ask,     ///< to 0: idle threads; then what was done since
-  deal,    ///< 0 to one: whether that was all there is; then numbers of cases
+  deal,    ///< 0 to one: whether these were the last; then numbers of cases
   leave,   ///< to 0: whether it was stopped; then what was done since
-  bye,     ///< 0 to one that leaves
+  bye,     ///< 0 to one that is leaving
   halt     ///< 0 to all: stop
 };
 
 using Message = std::vector<std::int64_t>;
-constexpr auto nap = std::chrono::milliseconds(2);  // next to the 50 ms of a portion
-constexpr std::size_t most_dealt = 400;             // fits a message that is sent without waiting for its receiver
+constexpr auto nap = std::chrono::milliseconds(2);  // short compared with the 50 ms of a portion
+constexpr std::size_t most_dealt = 400;             // fits into a message that is sent without waiting for its receiver
 
 void report(Message& to, const WorkerPool::Tally& since) {
   to.insert(to.end(),
@@ -54,8 +54,8 @@ void take_leave(Communicator& communicator, const Message& last) {
   }
 }
 
-/// Cases to hand out at once: as many as last some 50 ms, so that short ones do not wait for messages, but few
-/// enough to leave work for everyone; towards the end one for each idle thread.
+/// Number of cases to distribute at once: enough for about 50 ms, so that short ones do not wait for messages, but few enough to leave work
+/// for all; towards the end one for each idle thread.
 std::size_t portion(std::size_t left, std::size_t workers, std::size_t idle, const SweepCount& so_far) {
   if (left <= 2 * workers) return std::min(left, idle);
   const double each = so_far.done > 0 ? so_far.busy / static_cast<double>(so_far.done) : 1;
@@ -63,7 +63,7 @@ std::size_t portion(std::size_t left, std::size_t workers, std::size_t idle, con
   return std::clamp<std::size_t>(some, 1, std::max<std::size_t>(left / (4 * workers), 1));
 }
 
-/// Process 0, or the only one: works, and hands out to the others.
+/// Process 0, or the only one: works, and distributes cases to the others.
 class Leader {
  public:
   Leader(const Sweep& sweep, Journal& journal, const fs::path& folder, const SweepSettings& settings,
@@ -145,7 +145,7 @@ class Leader {
   WorkerPool workers_;
 };
 
-/// One of the other processes: asks for cases when its last one has been drawn, so that more are there when that is done.
+/// Any other process: requests cases when its last one has been drawn, so that more have arrived when that is done.
 class Follower {
  public:
   Follower(const Sweep& sweep, Journal& journal, const fs::path& folder, const SweepSettings& settings)
@@ -153,7 +153,7 @@ class Follower {
         communicator_(*settings.communicator),
         workers_(sweep, journal, folder, communicator_.rank(), settings.threads) {}
 
-  /// @returns its words of leave
+  /// @returns its leave message
   Message follow() {
     while (!workers_.home() || asked_) {
       Message said;
@@ -225,7 +225,7 @@ SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const Sweep
   } catch (...) {
     trouble = std::current_exception();
   }
-  take_leave(communicator, last);  // after the journal is closed: process 0 reads it then
+  take_leave(communicator, last);  // after the journal is closed, because process 0 then reads it
   if (trouble) std::rethrow_exception(trouble);
   return end;
 }

@@ -18,14 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_bytes = std::size_t{100} << 20, most_file_bytes = std::size_t{1} << 30;
 
-/// The contents of a file beside the scene that a value names, if it does: a table, drawing or mesh.
+/// The contents of a file next to the scene, if the value names one: a table, drawing or mesh.
 std::optional<std::string> file_named(const std::string& text, const fs::path& folder) {
   if (text.empty() || text.size() >= 256 || text.find('\n') != std::string::npos) return {};
   try {
     const fs::path path = contained_file(text, folder);
     std::error_code error;
     if (fs::is_regular_file(path, error)) return read_file(path, most_file_bytes);
-  } catch (const FileRefused&) {  // whoever reads it says why
+  } catch (const FileRefused&) {  // reported where it is read
   }
   return {};
 }
@@ -37,7 +37,7 @@ std::uint64_t print_of_files(const Yaml& tree, const fs::path& folder, std::uint
   return print;
 }
 
-/// Of the files that a scene includes, and of those that they name.
+/// Fingerprint of the files that a scene includes, and of those that they name.
 std::uint64_t print_of_included(const CaseSource& scene, std::uint64_t print) {
   Source source{scene.file.string(), {}, scene.file.parent_path()};
   Yaml tree = parse_yaml(scene.text, source.file);
@@ -49,13 +49,13 @@ std::uint64_t print_of_included(const CaseSource& scene, std::uint64_t print) {
   return print;
 }
 
-/// " mm" of "0.1 mm": the same of numbers in the same unit.
+/// " mm" of "0.1 mm": the same for numbers in the same unit.
 std::string behind_number(const std::string& text) {
   double number = 0;
   return std::from_chars(text.data(), text.data() + text.size(), number).ptr;
 }
 
-/// Tells a study that is wrong from a case that is: by what the scene's reader says of some of the cases.
+/// Distinguishes an error in the study from one in a case: by the reader's errors for some of the cases.
 class Trial {
  public:
   explicit Trial(const Sweep& sweep) : sweep_(sweep) {}
@@ -68,7 +68,7 @@ class Trial {
  private:
   static constexpr std::size_t most = 8;
 
-  /// What the reader says of case k; empty if it can be read. Name i may have another value there.
+  /// The reader's error for case k; empty if it can be read. Name i may be given another value.
   std::string refusal(std::size_t k, std::size_t i = 0, const std::string* value = nullptr) const {
     Overrides set = sweep_.cases.overrides(k);
     for (auto& [name, text] : set)
@@ -81,7 +81,7 @@ class Trial {
     return "";
   }
 
-  /// What a refusal says of the value of name i, or what is put in by it; empty if it is about something else.
+  /// The part of an error about the value of name i, or about what it sets; empty if it is about something else.
   std::string about(std::size_t i, const std::string& refusal) const {
     const std::string mark = ": --set " + sweep_.cases.names[i];
     const auto at = refusal.find(mark);
@@ -95,7 +95,7 @@ class Trial {
     throw SceneError(sweep_.study.file, sweep_.cases.places[i], message);
   }
 
-  /// A name none of whose values can be read, for the value's sake: mistyped.
+  /// Checks for a name whose values are all rejected because of the value: a typing error.
   void validate_name(std::size_t i) const {
     std::vector<std::size_t> with;
     for (std::size_t k = 0; k < sweep_.cases.size(); ++k)
@@ -110,9 +110,9 @@ class Trial {
     if (n > 0) fail(i, first);
   }
 
-  /// A value that the reader would take without its unit, beside values in units of another kind.
+  /// Checks for values without a unit besides values in units of another kind.
   void validate_units(std::size_t i) const {
-    std::map<std::string, std::size_t> kinds;  // and the first case that has it
+    std::map<std::string, std::size_t> kinds;  // with the first case that has it
     std::set<std::string, std::less<>> seen;
     for (std::size_t k = 0; k < sweep_.cases.size(); ++k) {
       if (!sweep_.cases.values[k][i] || !seen.insert(behind_number(*sweep_.cases.values[k][i])).second) continue;
@@ -127,7 +127,7 @@ class Trial {
     }
   }
 
-  /// If the scene cannot be read in any of some cases, it is the study that is wrong.
+  /// If the scene cannot be read in any of some cases, the study is wrong.
   void validate_all() const {
     const std::size_t n = std::min(most, sweep_.cases.size());
     std::string first;

@@ -15,17 +15,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A varied thing as a column: SI numbers if every value that the scene took is one, else as written.
+/// A varied quantity as a column: SI numbers if every value accepted by the scene is a number, otherwise as written.
 struct Varied {
   std::string header;
   std::vector<std::string> fields;  ///< of all cases
 };
 
-/// In each case; nothing where it has none.
+/// In each case; nothing where there is none.
 using Quantities = std::vector<std::optional<Quantity>>;
 
-/// The unit in which the scene took the values of a name; if none of them has been taken, the first that is written.
-/// Nothing if it took several.
+/// The unit in which the scene accepted the values of a name; if none has been accepted, the first one written. Nothing if there were
+/// several.
 std::optional<std::string> unit_of(const Quantities& values, const std::vector<bool>& taken) {
   std::string first, out;
   bool any = false;
@@ -42,7 +42,7 @@ std::optional<std::string> unit_of(const Quantities& values, const std::vector<b
   return any ? out : first;
 }
 
-/// @param taken  the cases that ended, and not because the scene's reader refused them
+/// @param taken  the cases that ended, except those rejected by the scene's reader
 Varied varied(const Cases& cases, std::size_t name, const std::vector<bool>& taken) {
   Quantities values;
   bool numbers = true;
@@ -62,7 +62,7 @@ Varied varied(const Cases& cases, std::size_t name, const std::vector<bool>& tak
   return out;
 }
 
-/// "peak [N]", with the unit that the first case knows which has one.
+/// "peak [N]", with the unit from the first case that has one.
 std::string measure_header(const Sweep& sweep, const std::vector<Row>& rows, std::size_t m) {
   std::string out = sweep.study.measures[m].name;
   for (const Row& r : rows)

@@ -11,7 +11,7 @@
 
 namespace pintle {
 
-/// Numbers of cases to be done, drawn by any number of threads, each once.
+/// Numbers of pending cases, drawn by any number of threads, each once.
 class TaskQueue {
  public:
   void add(std::span<const std::size_t> numbers) {
@@ -25,14 +25,14 @@ class TaskQueue {
     closed_ = true;
     drawn_.notify_all();
   }
-  /// Takes out all that are left, and closes.
+  /// Removes all that are left, and closes.
   void clear() {
     const std::lock_guard lock(mutex_);
     numbers_.clear();
     closed_ = true;
     drawn_.notify_all();
   }
-  /// Waits for one; nothing once the task queue is closed and empty.
+  /// Waits for a number; nothing once the queue is closed and empty.
   std::optional<std::size_t> draw() {
     std::unique_lock lock(mutex_);
     ++waiting_;
@@ -43,7 +43,7 @@ class TaskQueue {
     numbers_.pop_front();
     return k;
   }
-  /// At most n, at once.
+  /// At most n, without waiting.
   std::vector<std::size_t> draw_some(std::size_t n) {
     const std::lock_guard lock(mutex_);
     const auto end = numbers_.begin() + static_cast<std::ptrdiff_t>(std::min(n, numbers_.size()));
@@ -59,7 +59,7 @@ class TaskQueue {
     const std::lock_guard lock(mutex_);
     return numbers_.size();
   }
-  /// Threads that wait for a number.
+  /// Number of waiting threads.
   int waiting() const {
     const std::lock_guard lock(mutex_);
     return waiting_;

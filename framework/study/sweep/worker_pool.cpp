@@ -59,7 +59,7 @@ WorkerPool::Tally WorkerPool::tally() {
 }
 
 void WorkerPool::wait(std::chrono::milliseconds most) {
-  if (threads_.empty()) return;  // nobody else brings news
+  if (threads_.empty()) return;  // no other thread will notify
   std::unique_lock lock(mutex_);
   news_.wait_for(lock, most, [&] { return changes_ != seen_; });
   seen_ = changes_;
@@ -79,7 +79,7 @@ void WorkerPool::news() {
 void WorkerPool::work(int thread) {
   try {
     while (const std::optional<std::size_t> number = queue_.draw()) {
-      if (queue_.left() == 0) news();  // the only one that anyone waits for
+      if (queue_.left() == 0) news();  // the only event that is waited for
       run(*number, thread);
     }
   } catch (...) {

@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// Threads of one process that draw cases from a task queue, run them and write them into a journal. If the system refuses some of
+/// Worker threads of one process that draw cases from a task queue, run them and write them to a journal. If the system refuses some of
 /// them, the others do the work; if it refuses all, the caller does (`work_here`).
 class WorkerPool {
  public:
@@ -25,26 +25,26 @@ class WorkerPool {
     double busy = 0;  ///< [s]
   };
 
-  /// @param folder  takes the curves of cases
+  /// @param folder  for the curves of cases
   WorkerPool(const Sweep&, Journal&, const std::filesystem::path& folder, int rank, int threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
 
   TaskQueue& queue() { return queue_; }
-  bool home() const;    ///< all threads have ended, or without threads: all cases
+  bool home() const;    ///< all threads have ended, or without threads: all cases are done
   int workers() const;  ///< threads, or the caller
   int idle() const;     ///< of them, without a case
-  /// Why there are fewer threads than asked for; empty: there are not.
+  /// Why there are fewer threads than requested; empty: there are not.
   const std::string& shortage() const { return shortage_; }
-  /// Without threads: runs a case of the task queue, if there is one, and calls `poll` often meanwhile.
+  /// Without threads: runs a case of the task queue, if there is one, and calls `poll` often during it.
   void work_here(const std::function<void()>& poll);
-  bool troubled();  ///< a thread could not go on; finish() says why
-  /// Ends the cases that are running; they are not recorded.
+  bool troubled();  ///< a thread failed; finish() says why
+  /// Aborts the running cases; they are not recorded.
   void stop();
-  Tally tally();  ///< since it was asked last
-  /// Until a thread has drawn the last case of the task queue or ended, at most so long.
+  Tally tally();  ///< since the last call
+  /// Waits until a thread has drawn the last case of the queue or ended, at most this long.
   void wait(std::chrono::milliseconds);
-  /// Joins. @throws what stopped a thread
+  /// Joins the threads. @throws what stopped a thread
   void finish();
 
  private:

@@ -20,7 +20,7 @@ Ladder validate_ladder(const std::vector<double>& values, double cap, double sca
     return out;
   }
   const double mean = std::pow(std::max(d[0], tiny) / std::max(last, tiny), 1.0 / static_cast<double>(n - 1));
-  // A first difference that is small by luck must not hide that all that follow fall.
+  // A first difference that is small by chance must not hide that all later ones fall.
   const double late = std::max(before, tiny) / std::max(last, tiny);
   const double fall = std::max(mean, n > 2 ? late : mean);
   out.falling = !out.rounding && fall >= 2 && last <= 0.5 * *std::max_element(d.begin(), d.end() - 1);
@@ -52,7 +52,7 @@ Sample sample_of(const std::vector<double>& values) {
 
 namespace {
 
-/// Columns of places and angles, with their ranges in `a`.
+/// Columns of positions and angles, with their ranges in `a`.
 std::vector<std::pair<std::size_t, double>> motion_columns(const Table& a) {
   std::vector<std::pair<std::size_t, double>> out;
   for (std::size_t c = 0; c < a.columns(); ++c) {

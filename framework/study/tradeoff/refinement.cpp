@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 4> more_is_finer{"elements", "pieces", "count", "below"};
 constexpr std::array<std::string_view, 4> less_is_finer{"size", "hole size", "tolerance", "max step"};
 constexpr std::array<std::string_view, 6> words{"method", "constraints", "onset", "model", "theory", "element"};
-/// Of words that have no order, those taken for the most faithful if they are there, the first of them first.
+/// For words without an order, those considered most accurate, if present, the first ones first.
 constexpr std::array<std::string_view, 6> faithful{"auto", "verner87", "dopri5", "projection", "contact", "timoshenko"};
 
 template <class List>
@@ -28,7 +28,7 @@ std::string last_key(const std::string& path) {
   return dot == std::string::npos ? path : path.substr(dot + 1);
 }
 
-/// A count is doubled as a number, so that it stays one; a quantity keeps its unit.
+/// A count is doubled as a number, so that it remains a count; a quantity keeps its unit.
 bool refine(Yaml& yaml, const std::string& key) {
   bool changed = false;
   for (Yaml& item : yaml.items) changed |= refine(item, yaml.kind == Yaml::Kind::map ? item.key : key);
@@ -40,7 +40,7 @@ bool refine(Yaml& yaml, const std::string& key) {
   if (more && std::from_chars(yaml.text.data(), end, count).ptr == end)
     yaml.text = std::to_string(std::max(1L, 2 * count));
   else if (key == "elements" || key == "pieces" || key == "count")
-    return false;  // a word or a parameter: what it would be doubled is not known here
+    return false;  // a word or a parameter: its doubled value is unknown here
   else
     yaml.text = (more ? "2*(" : "0.5*(") + yaml.text + ")";
   return true;
@@ -60,7 +60,7 @@ std::optional<double> number_in(const std::string& text) {
   }
 }
 
-/// Sorts by the number that the axis sets, if every value sets the same one.
+/// Sorts by the number that the axis sets, if every value sets the same quantity.
 void sort_by_number(FidelityAxis& axis, bool descending) {
   std::vector<std::pair<double, AxisValue>> sorted;
   for (const AxisValue& v : axis.values) {

@@ -7,12 +7,12 @@
 
 namespace pintle {
 
-/// What an override of a scene says about fidelity: the last keys of its path and of the paths within its value.
-/// Counts of elements, pieces and modes and bounds of frequency are doubled, sizes halved.
-/// @returns nothing where there is nothing of the kind
+/// Refines the accuracy settings in an override of a scene: the last keys of its path and of the paths within its value. Counts of
+/// elements, pieces and modes and limits of frequency are doubled, sizes halved.
+/// @returns nothing where there are none
 std::optional<std::string> refined(const std::string& path, const std::string& text);
 
-/// The overrides with everything in them refined that can be; nothing if that is nothing.
+/// The overrides with everything refined that can be; nothing if there is nothing.
 std::optional<Overrides> refined(const Overrides&);
 
 /// Overrides of all finest values, in the order of the axes; without those of `run` if `model_only`.
@@ -21,12 +21,12 @@ Overrides finest(const TradePlan&, bool model_only);
 /// Overrides of one setting. @param at  value of each axis
 Overrides setting(const TradePlan&, const std::vector<std::size_t>& at);
 
-/// The tolerance that a setting has.
+/// The tolerance of a setting.
 double tolerance_of(const TradePlan&, const Overrides&);
 Overrides with_tolerance(Overrides, double);
 
-/// Runs with nearly the tolerance of `set`: the k-th of an ensemble, k = 0 the setting itself. Where a motion is chaotic
-/// two per cent of a tolerance make another motion with the same statistics.
+/// The k-th member of an ensemble of runs with nearly the tolerance of `set`; k = 0 is the setting itself. If a motion is chaotic, changing
+/// the tolerance by two per cent gives another motion with the same statistics.
 Overrides member(const TradePlan&, const Overrides& set, int k);
 
 }  // namespace pintle

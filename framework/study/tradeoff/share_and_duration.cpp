@@ -4,7 +4,7 @@ namespace pintle {
 
 namespace {
 
-/// Takes a unit that only this place knows off the end of the text.
+/// Removes a unit used only here from the end of the text.
 bool take(std::string& text, const std::string& unit) {
   const auto end = text.find_last_not_of(' ');
   if (end == std::string::npos || end + 1 < unit.size() || text.compare(end + 1 - unit.size(), unit.size(), unit) != 0) return false;

@@ -6,7 +6,7 @@ namespace pintle {
 
 namespace {
 
-/// Of a value that the reader refuses alone, at most so many combinations are read.
+/// Number of combinations that are read at most for a value that the reader rejects alone.
 constexpr int most_tries = 400;
 
 Scene scene_with(const CaseSource& source, const Overrides& set) {
@@ -15,7 +15,7 @@ Scene scene_with(const CaseSource& source, const Overrides& set) {
   return read_scene_text(source.text, source.file.string(), all, source.file.parent_path());
 }
 
-/// Why the reader refuses it; empty: it does not.
+/// Why the reader rejects it; empty: it does not.
 std::string refusal(const CaseSource& source, const Overrides& set) {
   try {
     scene_with(source, set);
@@ -30,7 +30,7 @@ Overrides joined(Overrides set, const Overrides& more) {
   return set;
 }
 
-/// Is there a combination in which the reader takes this value? First beside one value of one other axis, then of all.
+/// Is there a combination in which the reader accepts this value? Tried first with one value of one other axis, then of all.
 bool taken_somewhere(const CaseSource& source, const TradePlan& plan, std::size_t axis, std::size_t value) {
   const Overrides& set = plan.axes[axis].values[value].set;
   int tries = 0;
@@ -51,7 +51,7 @@ bool taken_somewhere(const CaseSource& source, const TradePlan& plan, std::size_
   return false;
 }
 
-/// What the reader says of an override, without the command line that it takes it for.
+/// The reader's message about an override, without the command line that it mentions.
 std::string said_of_override(const std::string& why) {
   const std::string mark = "--set ";
   const auto at = why.find(mark);

@@ -4,9 +4,9 @@
 
 namespace pintle {
 
-/// Reads the scene as each value of each axis makes it. What the scene's reader refuses alone is tried beside the values of
-/// the other axes (partitioning belongs to an explicit scheme); what it refuses beside all of them is wrong.
-/// @throws SceneError  naming the study's file, line and key; the same for the overrides of the reference
+/// Reads the scene with each value of each axis. A value that the scene's reader rejects alone is tried with the values of the other axes
+/// (partitioning needs an explicit scheme); one that it rejects with all of them is an error.
+/// @throws SceneError  naming the study's file, line and key; likewise for the overrides of the reference
 void validate_settings(const StudyFile&, const TradePlan&);
 
 }  // namespace pintle

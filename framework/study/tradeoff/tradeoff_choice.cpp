@@ -8,10 +8,10 @@ namespace pintle {
 
 namespace {
 
-// What counts as less: an error by a fifth, a time by a twentieth; and as the same: an error by a tenth.
+// Thresholds: an error counts as smaller by a fifth, a time by a twentieth; errors within a tenth count as equal.
 constexpr double less_error = 0.8, same_error = 1.1, less_time = 0.95;
 
-/// The point on the front farthest from the straight line between its ends, in decades: where more time begins to buy little.
+/// The point on the front farthest from the straight line between its ends, in decades: where additional time begins to gain little.
 std::size_t knee(const std::vector<TradePoint>& points, const std::vector<std::size_t>& front) {
   if (front.size() < 3) return front.back();
   const auto x = [&](std::size_t i) { return std::log10(std::max(points[i].time, 1e-12)); };
@@ -24,7 +24,7 @@ std::size_t knee(const std::vector<TradePoint>& points, const std::vector<std::s
   return best;
 }
 
-/// Lower by what can be told.
+/// The error is lower by more than its uncertainty.
 bool lowers(const TradeReport& r, std::size_t point, const AxisEffect& e) {
   const TradePoint &p = r.points[point], &to = r.points[e.point];
   if (r.plan.axes[e.axis].ordered && e.to < p.at[e.axis]) return false;
@@ -109,7 +109,7 @@ std::vector<std::size_t> pareto_front(std::vector<TradePoint>& points) {
   std::vector<std::size_t> front;
   double least = INFINITY;
   for (const std::size_t i : order) {
-    // Better by what cannot be told is not better.
+    // An improvement within the uncertainty does not count.
     if (points[i].claimed() < least && (front.empty() || points[i].claimed() + 0.5 * points[i].warning < least)) {
       least = points[i].claimed();
       points[i].front = true;
@@ -158,7 +158,7 @@ std::vector<AxisEffect> free_coarsenings(const TradeReport& r, std::size_t point
 
 namespace {
 
-/// Errors that cannot be told from none are alike: none of these settings is the better for its smaller doubt.
+/// Errors below their uncertainty are equal: none of these settings is better because of a smaller uncertainty.
 void level_warnings(std::vector<TradePoint>& points) {
   std::vector<double> warnings_of;
   for (const TradePoint& p : points)
@@ -169,7 +169,7 @@ void level_warnings(std::vector<TradePoint>& points) {
     if (p.usable) p.warning = std::max(p.warning, warnings_of[warnings_of.size() / 2]);
 }
 
-/// What the reference supports, and nothing else.
+/// Chooses only what the reference supports.
 void choose(TradeReport& r) {
   const TradePlan& plan = r.plan;
   for (std::size_t i = 0; i < r.points.size(); ++i)
@@ -192,7 +192,7 @@ void choose(TradeReport& r) {
 void answer(TradeReport& r) {
   level_warnings(r.points);
   discount_luck(r);
-  // The scene as it stands may be one of the combinations too: that one then stands for both.
+  // The unchanged scene may also be one of the combinations, which then represents both.
   const bool twice =
       !r.points.empty() && r.points.front().usable && std::ranges::any_of(r.points.begin() + 1, r.points.end(), [&](const TradePoint& p) {
         return p.usable && p.steps > 0 && p.steps == r.points.front().steps && p.evaluations == r.points.front().evaluations &&

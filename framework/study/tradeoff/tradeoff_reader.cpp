@@ -16,10 +16,10 @@ namespace {
 
 const Yaml& entry(const Yaml& map, std::string_view key) { return *std::ranges::find(map.items, key, &Yaml::key); }
 
-/// What a value is called where nobody named it.
+/// Default label of a value.
 std::string label_of(const Yaml& value) { return value.kind == Yaml::Kind::scalar ? value.text : override_text(value); }
 
-/// {run.tolerance: [1e-4, 1e-6]}; several names are walked in step.
+/// {run.tolerance: [1e-4, 1e-6]}; several names vary together.
 std::vector<AxisValue> listed_values(const Node& node, const Yaml& axis) {
   std::vector<AxisValue> out(axis.items.front().items.size());
   for (const Yaml& name : axis.items) {

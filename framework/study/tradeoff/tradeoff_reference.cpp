@@ -11,8 +11,8 @@ namespace pintle {
 
 namespace {
 
-constexpr double tightest = 1e-13;  ///< where rounding takes over
-constexpr double loosest = 1e-4;    ///< where a search begins whose time is bounded
+constexpr double tightest = 1e-13;  ///< below this, rounding dominates
+constexpr double loosest = 1e-4;    ///< start of a search with limited time
 constexpr int most_tolerances = 6, most_refinements = 5;
 constexpr const char* chaotic_model =
     "a finer model changes a single chaotic run at random, so the reference is the ensemble of the finest model of the study";
@@ -24,7 +24,7 @@ bool whole(const Outcome& o, std::size_t n) {
   return o.status == "finished" && o.values.size() == n && std::ranges::all_of(o.values, [](double v) { return std::isfinite(v); });
 }
 
-/// Refines until every quantity stands still, or is known not to.
+/// Refines until every quantity has converged, or is known not to.
 class Search {
  public:
   Search(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, double seconds, double most)
@@ -34,7 +34,7 @@ class Search {
 
   Reference find() {
     base_ = finest(plan_, true);
-    // A numerical axis that is neither scheme nor tolerance (a longest step, say) has its finest value in the reference too.
+    // For a numerical axis other than scheme and tolerance (such as a largest step), the reference also uses the finest value.
     for (const FidelityAxis& axis : plan_.axes)
       for (const auto& set : axis.values[axis.finest].set)
         if (axis.numerical && set.first != "run.method" && set.first != "run.tolerance" && set.first != "run.constraints" &&
@@ -58,7 +58,7 @@ class Search {
 
  private:
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  /// Nothing can be recommended by a reference that is not known well enough: then it may take more.
+  /// An insufficient reference allows no recommendation: then it may take more time.
   bool may_spend(double more) {
     if (seconds_ <= 0 || spent() + more <= seconds_) return true;
     if (stands()) return false;
@@ -95,7 +95,7 @@ class Search {
     return v;
   }
 
-  /// Relative to the value, or to the largest seen where it is nearly nothing.
+  /// The value, or if it is nearly zero the largest one seen.
   double scale(std::size_t q) const {
     const double now = std::abs(out_.levels.back().values[q]);
     return std::max({now, 1e-6 * scale_[q], 1e-300});
@@ -104,7 +104,7 @@ class Search {
   double wanted() const { return plan_.error > 0 ? plan_.error : 1e-4; }
   double target() const { return wanted() / 100; }
 
-  /// Is every quantity known to a third of what is asked, by what has run so far?
+  /// Is every quantity known to a third of the requested error, from the runs so far?
   bool stands() const { return out_.levels.size() > 2 && (tolerances_ == 0 ? settled(1.0 / 3) : stands_); }
 
   Ladder ladder(std::size_t q, std::size_t levels) const {
@@ -123,7 +123,7 @@ class Search {
     return std::ranges::any_of(plan_.reference, [](const auto& s) { return s.first == "run.tolerance"; });
   }
 
-  /// The tightest of the study, or what the reference is told to have.
+  /// The tightest tolerance in the study, or that specified for the reference.
   double study_tolerance() const {
     double t = tolerance_of(plan_, plan_.reference);
     for (const FidelityAxis& axis : plan_.axes)
@@ -132,8 +132,8 @@ class Search {
     return std::clamp(t, 1e2 * tightest, 1e-6);
   }
 
-  /// Two decades below the study's finest. Where time is bounded, from loose ones on, that what is expensive is run last; and no
-  /// further than what is asked needs before the model, which may owe more, was refined.
+  /// Two decades below the study's finest. With limited time it starts from loose tolerances, so that expensive runs come last, and goes no
+  /// further than the requested error needs before the model, whose error may be larger, is refined.
   void climb_tolerances() {
     const double finest = study_tolerance();
     const bool bounded = seconds_ > 0, model = refined(base_).has_value();
@@ -158,7 +158,7 @@ class Search {
     if (!out_.levels.empty()) out_.set = out_.levels.back().set;
   }
 
-  /// Of what needs no run: nothing but the model errs.
+  /// For an analysis without a run: only the model has an error.
   void take_finest() {
     if (level("the finest model of the study", base_))
       tolerances_ = 1, out_.set = base_;
@@ -188,7 +188,7 @@ class Search {
     return l.rounding || (l.falling && whole >= 3 && d.back() <= 1e-4 * scale);
   }
 
-  /// Of motions that part exponentially, the quantities that do not settle are judged by ensembles.
+  /// For exponentially diverging motions, the quantities that do not converge are evaluated by ensembles.
   void find_chaos() {
     if (tolerances_ < 3) return;
     const auto &a = runs_[tolerances_ - 2], &b = runs_[tolerances_ - 1];
@@ -196,7 +196,7 @@ class Search {
       parting_ = parting(*a, *b);
       if (!parting_.chaotic()) return;
     }
-    // Of motions that part, a quantity is regular only if it settles steadily, as one does that is had early on.
+    // For diverging motions, a quantity is regular only if it converges steadily, like one that is determined early in the run.
     std::vector<std::size_t> suspects;
     for (std::size_t q = 0; q < n_; ++q)
       if (!steady(ladder_[q], out_.of[q].scale) && out_.of[q].error > 1e-9 * out_.of[q].scale) suspects.push_back(q);
@@ -225,7 +225,7 @@ class Search {
     if (std::ranges::any_of(out_.of, &QuantityReference::chaotic)) out_.set = with_tolerance(base_, fine);
   }
 
-  /// Of a run at the level whose tolerance is nearest.
+  /// Time of a run at the level with the nearest tolerance.
   double seconds_at(double tolerance) const {
     double seconds = 0, nearest = INFINITY;
     for (std::size_t k = 0; k < tolerances_; ++k)
@@ -248,7 +248,7 @@ class Search {
     return out;
   }
 
-  /// Elements, modes and the like of the finest model, doubled twice, and more often as long as what is asked is not known.
+  /// Doubles elements, modes and the like of the finest model twice, and further as long as the requested accuracy is not reached.
   void refine_model() {
     const double tolerance = tolerance_of(plan_, out_.set);
     const auto computed = [&](const Overrides& set) { return plan_.integrates ? with_tolerance(set, tolerance) : set; };
@@ -292,7 +292,7 @@ class Search {
     }
   }
 
-  /// Without a finer model, what the next coarser one changes is taken for the error of the finest.
+  /// Without a finer model, the change to the next coarser one is taken as the error of the finest.
   void compare_coarser() {
     for (std::size_t a = 0; a < plan_.axes.size(); ++a) {
       const FidelityAxis& axis = plan_.axes[a];

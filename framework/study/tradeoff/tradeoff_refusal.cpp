@@ -1,4 +1,4 @@
-// Why a trade recommends nothing.
+// Why a trade-off study recommends nothing.
 #include <algorithm>
 #include <cmath>
 

@@ -15,12 +15,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using At = std::vector<std::size_t>;
 
-// Shares of a budget: what the reference may take, and as long as it does not stand; of the rest, what is spent when no further
-// setting is begun, nor a run of an ensemble.
+// Shares of a budget: for the reference, and for it while it is insufficient; of the rest, the share after which no further setting is
+// started, and no run of an ensemble.
 constexpr double for_reference = 0.4, for_want_of_it = 0.7, for_settings = 0.58, in_ensembles = 0.75;
-/// Relative differences that are rounding.
+/// smaller relative differences are rounding
 constexpr double constant = 1e-12;
-/// How far behind another setting one must be, in time and in error, to be clearly dominated.
+/// A setting worse by this factor in both time and error is clearly dominated.
 constexpr double clearly = 2;
 
 double median(std::vector<double> v) {
@@ -68,7 +68,7 @@ class Trade {
  private:
   std::vector<TradePoint>& points() { return out_.points; }
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  /// Of what the reference left, a share.
+  /// A share of the time that the reference has left.
   double left(double share = 1) const { return out_.plan.budget > 0 ? begun_ + share * (out_.plan.budget - begun_) - spent() : INFINITY; }
   static double share(std::size_t i, std::size_t n) { return static_cast<double>(i) / static_cast<double>(n); }
   void tell(const std::string& what, double done) const {
@@ -111,7 +111,7 @@ class Trade {
     }
   }
 
-  /// Runs a setting and judges it; an ensemble where something is chaotic.
+  /// Runs a setting and evaluates it; an ensemble where something is chaotic.
   void visit(std::size_t i, double limit) {
     TradePoint& p = points()[i];
     CaseLimits limits;
@@ -152,7 +152,7 @@ class Trade {
         p.values[q] = s[q].mean, p.spread[q] = std::max(s[q].error, s[q].count < 4 ? out_.reference.of[q].spread : 0);
   }
 
-  /// Quantities that are the same in every run; and of those whose reference is 0 alone, what errors are relative to.
+  /// Finds quantities that are the same in every run; for those whose reference is 0, also the scale of their errors.
   void find_constants() {
     if (out_.ran() == 0) return;
     for (std::size_t q = 0; q < measures_.size(); ++q) {
@@ -190,7 +190,7 @@ class Trade {
 
   // --- within a budget -------------------------------------------------------------------------------------------
 
-  /// Settings of all numerical axes together count as one axis here: how much more expensive a tolerance is depends on the scheme.
+  /// All numerical axes together count as one axis here: the cost of a tolerance depends on the scheme.
   std::vector<std::vector<std::size_t>> groups() const {
     std::vector<std::vector<std::size_t>> out;
     std::vector<std::size_t> numerical;
@@ -215,7 +215,7 @@ class Trade {
     return i + 1;
   }
 
-  /// The setting that is the finest but for the axes of `group`, where it is as `at`.
+  /// The setting with the finest values except for the axes of `group`, where it is as `at`.
   std::size_t star(const At& at, const std::vector<std::size_t>& group) const {
     At s = finest_at();
     for (const std::size_t axis : group) s[axis] = at[axis];
@@ -226,7 +226,7 @@ class Trade {
     double time, error;
   };
 
-  /// From what each group alone does at the finest of all others: times multiply, the worst error stays.
+  /// Estimate from the effect of each group alone with all others finest: times multiply, the worst error remains.
   Guess guess(const At& at) const {
     const TradePoint& finest = out_.points[index(finest_at())];
     const double centre = finest.usable ? finest.time : 0;
@@ -252,12 +252,12 @@ class Trade {
     visit(index(finest_at()), 2 * each);
     std::vector<bool> seen(points().size(), false);
     seen[0] = seen[index(finest_at())] = true;
-    // First what each axis does alone, all numerical ones together, ...
+    // First the effect of each axis alone, all numerical ones together, ...
     std::vector<std::size_t> stars;
     for (std::size_t i = 1; i < points().size(); ++i)
       for (const auto& group : groups())
         if (star(points()[i].at, group) == i && !seen[i]) stars.push_back(i), seen[i] = true;
-    // ... in an order that is spread over them however far the budget goes, ...
+    // ... in an order that is spread over them for any budget, ...
     std::ranges::sort(stars, {}, [](std::size_t i) { return std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0); });
     for (const std::size_t i : stars) {
       if (left(for_settings) <= 0 || out_.stopped) break;
@@ -303,8 +303,8 @@ class Trade {
 
   // --- times -----------------------------------------------------------------------------------------------------
 
-  /// Rounds over all settings, so that what disturbs the machine for a while disturbs all alike. Timed runs measure
-  /// nothing: they make the outputs that the scene itself asks for. What needs no run is done for its measures alone.
+  /// Rounds over all settings, so that a temporary disturbance of the machine affects all equally. Timed runs compute no measures: they
+  /// write the outputs of the scene itself. Analyses without a run only compute their measures.
   void time_all() {
     std::vector<std::size_t> who, beaten;
     for (std::size_t i = 0; i < points().size(); ++i)
@@ -315,7 +315,7 @@ class Trade {
       tell("times", share(static_cast<std::size_t>(round), static_cast<std::size_t>(out_.plan.repeats)));
       for (const std::size_t i : who) time_once(points()[i]);
     }
-    for (const std::size_t i : beaten) time_once(points()[i]);  // once, if the budget has something left
+    for (const std::size_t i : beaten) time_once(points()[i]);  // once, if the budget allows
     for (TradePoint& p : points()) {
       if (p.times.empty()) continue;
       p.time = median(p.times);
@@ -335,7 +335,7 @@ class Trade {
 
   // --- error of the model ----------------------------------------------------------------------------------------
 
-  /// The same model as a setting's, computed as the reference is: what it then still errs is the model's.
+  /// The same model as in a setting, computed as accurately as the reference: its remaining error is that of the model.
   void tell_model_apart() {
     const TradePlan& plan = out_.plan;
     if (std::ranges::all_of(plan.axes, [](const FidelityAxis& a) { return a.numerical || a.values.size() < 2; })) return;
@@ -379,7 +379,7 @@ class Trade {
   const TradeListener& listener_;
   TradeReport out_;
   Clock::time_point begin_ = Clock::now();
-  double begun_ = 0;  ///< the settings, at this time [s]
+  double begun_ = 0;  ///< start time of the settings [s]
   bool chaos_ = false;
 };
 

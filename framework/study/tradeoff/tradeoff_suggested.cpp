@@ -26,7 +26,7 @@ FidelityAxis listed_axis(const std::string& name, const std::string& path, const
   return axis;
 }
 
-/// The scene language may know several models of a clearance.
+/// The models of a clearance in the scene language.
 std::vector<std::string> clearance_models() {
   for (const KeyTable& table : key_tables())
     if (table.path == "joints.*.clearance")
@@ -35,7 +35,7 @@ std::vector<std::string> clearance_models() {
   return {};
 }
 
-/// `modes` of a body with so many natural modes instead of what it says.
+/// `modes` of a body with this number of natural modes instead of its own.
 Yaml with_count(const Yaml& modes, int count) {
   Yaml out = modes;
   Yaml* group = &out;
@@ -48,7 +48,7 @@ Yaml with_count(const Yaml& modes, int count) {
   return out;
 }
 
-/// What a body with modes says that a rigid one must not.
+/// Removes keys of a body with modes that a rigid one must not have.
 Overrides rigid(const Yaml& scene, const std::string& body) {
   const std::string path = "bodies." + body + ".";
   Overrides set{{path + "modes", "null"}};
@@ -61,7 +61,7 @@ Overrides rigid(const Yaml& scene, const std::string& body) {
   return set;
 }
 
-/// How many natural modes it keeps: static shapes, which come on top, are no step of the axis.
+/// The number of natural modes kept: the additional static shapes are not part of the axis.
 int modes_kept(const Yaml& modes, int shapes) {
   const Yaml* group = &modes;
   for (const Yaml& item : modes.items)

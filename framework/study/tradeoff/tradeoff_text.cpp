@@ -42,7 +42,7 @@ Row cells(const TradeReport& r, std::size_t i) {
   return out;
 }
 
-/// The front and the scene as it stands, by time; all usable points if there are few.
+/// The front and the unchanged scene, by time; all usable points if there are few.
 std::vector<std::size_t> shown(const TradeReport& r, std::size_t most) {
   std::vector<std::size_t> out;
   std::size_t usable = 0;
@@ -53,7 +53,7 @@ std::vector<std::size_t> shown(const TradeReport& r, std::size_t most) {
   return out;
 }
 
-/// Letters on the screen, not bytes.
+/// Number of characters on the screen, not bytes.
 std::size_t width(const std::string& s) {
   return static_cast<std::size_t>(std::ranges::count_if(s, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }

@@ -19,13 +19,13 @@ std::string times_text(double factor) {
   return factor > 1 ? printed("%.2g times the time", factor) : printed("%.2g of the time", factor);
 }
 
-/// One stop at its end, whatever a message ends with.
+/// Adds one full stop, whatever the message ends with.
 std::string stopped(std::string s) {
   while (!s.empty() && (s.back() == '.' || s.back() == ' ')) s.pop_back();
   return s + ".";
 }
 
-/// Is the reference good enough to judge settings by?
+/// Is the reference accurate enough to judge settings?
 bool known(const TradeReport& r) { return r.warning() <= (r.plan.error > 0 ? r.plan.error : useful_warning); }
 
 void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
@@ -92,7 +92,7 @@ std::string step_text(const TradeReport& r, std::size_t point, const AxisEffect&
   return "from " + axis.values[r.points[point].at[e.axis]].label + " to " + axis.values[e.to].label;
 }
 
-/// Is there a setting that differs in this axis alone, and nobody knows what it does?
+/// Is there a setting that differs only in this axis and has not been run?
 bool waits(const TradeReport& r, std::size_t point, std::size_t axis) {
   return std::ranges::any_of(r.points, [&](const TradePoint& p) {
     if (p.at.size() != r.points[point].at.size() || (p.status != "not run" && p.status != "over its limit")) return false;
@@ -102,7 +102,7 @@ bool waits(const TradeReport& r, std::size_t point, std::size_t axis) {
   });
 }
 
-/// What each axis alone does to what is recommended, towards finer and towards coarser.
+/// Effect of each axis alone on the recommended setting, towards finer and coarser.
 void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   const std::size_t at = *r.recommended;
   const TradePoint& p = r.points[at];
@@ -140,7 +140,7 @@ void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   if (!s.empty()) said.push_back(s + ".");
 }
 
-/// Why it is not cheaper: what one step coarser errs.
+/// Why it is not cheaper: the error one step coarser.
 void say_coarser(const TradeReport& r, std::vector<std::string>& said) {
   const std::size_t at = *r.recommended;
   const TradePoint& p = r.points[at];
@@ -167,7 +167,7 @@ void say_luck(const TradeReport& r, std::vector<std::string>& said) {
                  percent_text(most->surer) + ".");
 }
 
-/// What the finest setting spends for nothing.
+/// What the finest setting spends without benefit.
 void say_free(const TradeReport& r, std::vector<std::string>& said) {
   for (std::size_t i = 0; i < r.points.size(); ++i) {
     bool finest = r.points[i].usable && !r.points[i].at.empty() && r.recommended != i;
@@ -181,7 +181,7 @@ void say_free(const TradeReport& r, std::vector<std::string>& said) {
   }
 }
 
-/// What the models err by themselves, each at the best of the other axes.
+/// The errors of the models themselves, each with the best values of the other axes.
 void say_models(const TradeReport& r, std::vector<std::string>& said) {
   const double warning = r.warning();
   for (std::size_t a = 0; a < r.plan.axes.size(); ++a) {
@@ -203,7 +203,7 @@ void say_models(const TradeReport& r, std::vector<std::string>& said) {
   }
 }
 
-/// Did enough settings with this value run to say that none of them is worth its time? Three quarters, and two at least.
+/// Were enough settings with this value run to conclude that none of them is worth its time? Three quarters, and at least two.
 bool tried(const TradeReport& r, std::size_t axis, std::size_t value) {
   std::size_t all = 0, ran = 0, judged = 0;
   for (const TradePoint& p : r.points)
