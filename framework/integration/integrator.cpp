@@ -303,7 +303,12 @@ bool Integrator::may_step(double until) {
 bool Integrator::sample(double t, State& out) {
   if (!sampled_) sampled_ = std::make_unique<Equations>(system_);
   sampled_->permanent = eq_.permanent;
-  return stepper_->sample(step_, t, *sampled_, out);
+  if (t > step_.from.state.t || t >= step_.to.state.t) return stepper_->sample(step_, t, *sampled_, out);
+  Step begin = step_;  // t lies in the roundings of the clock by which a step begins after a change of a law
+  begin.to = begin.from;
+  begin.to.state.t = t;
+  begin.h = 0, begin.struck = false;
+  return stepper_->sample(begin, t, *sampled_, out);
 }
 
 Counts Integrator::counts() const {

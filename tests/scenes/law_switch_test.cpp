@@ -41,6 +41,25 @@ struct Spike {
   double work;  // [J]
 };
 
+// A step that begins after a change of a law begins roundings behind the row that is due there; an event at once gives it no length.
+TEST_P(Pulse, ThatEndsWhereAnEventActsLeavesTheRowThatIsDue) {
+  for (const char* when : {"t > 0.3 s", "t >= 0.3 s", "t > 0.25 s", "push.fx > 2 N", "push.fx < 2 N"}) {
+    const Whole w = run(R"yaml(
+bodies: {b: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+start: {b: {x: 0, vx: 0 m/s}}
+forces: {push: {force: ["if(t > 0.25 s && t < 0.3 s, 20 N, 0 N)", 0], at: b}}
+run: {until: 0.5 s}
+events: {e: {when: ")yaml" + std::string(when) +
+                            "\", from start: false, do: {row: true}}}\n",
+                        GetParam());
+    ASSERT_EQ(w.run.status, Status::finished) << when << ": " << w.run.reason;
+    ASSERT_EQ(w.run.happenings.size(), 1u) << when;
+    EXPECT_EQ(w.column("t [s]").size(), 1002u) << when << ": all that are due, and the event's";
+    EXPECT_NEAR(w.last("b.vx [m/s]"), 1, GetParam().near) << when;
+    EXPECT_NEAR(w.ledger("push.work in [J]"), 0.5, GetParam().near) << when;
+  }
+}
+
 // Of 10 mm or less, which take a millisecond of the second.
 TEST_P(Pulse, OfALawDoesItsWork) {
   for (const auto& [force, work] : {
