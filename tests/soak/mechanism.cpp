@@ -57,9 +57,7 @@ class Drawing {
       Chance more(seed * 3);
       add_surfaces(drawn_, more);
     }
-    std::ostringstream title;
-    title << "seed " << seed;
-    return written(title.str(), drawn_, chance_);
+    return written("seed " + std::to_string(seed), drawn_, chance_);
   }
 
  private:
