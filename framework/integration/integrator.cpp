@@ -227,7 +227,12 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   ++counts_.events;
   step_.y_before = step_.to.state.y;
   const EventOutcome outcome = events_.act(event, step_, wish);
-  if (!outcome.failure.empty()) return stop(outcome.failure, step_.to.state.t);
+  // What an event that fails leaves is of no use: the last row is of what was before it.
+  const auto undo = [&] { step_.to.state.y = step_.y_before; };
+  if (!outcome.failure.empty()) {
+    undo();
+    return stop(outcome.failure, step_.to.state.t);
+  }
   if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   row_ = outcome.row, save_ = outcome.save;
   ended_ = outcome.end;
@@ -244,7 +249,9 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   step_.struck = outcome.change >= EventOutcome::Change::jump;
   if (outcome.change == EventOutcome::Change::rows) eq_.permanent = 0;
   if (step_.struck) step_.dy_before = step_.to.dy;
-  return stepper_->project(step_.to, eq_) || stop("singular pose at an event of " + events_.name(event));
+  if (stepper_->project(step_.to, eq_)) return true;
+  undo();
+  return stop("singular pose at an event of " + events_.name(event));
 }
 
 bool Integrator::change(const std::function<void(State&)>& act) {

@@ -10,6 +10,7 @@
 #include "framework/build/build.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
+#include "tests/extremes/contact_rigid.h"
 
 namespace extremes {
 
@@ -169,6 +170,7 @@ Row row(const Axis& axis, const Case& what) {
 const Atlas& atlas() {
   static const Atlas all = [] {
     Atlas axes = axes_of_contact();
+    for (Axis& axis : axes_of_rigid_bodies()) axes.push_back(std::move(axis));
     for (Axis& axis : axes_of_motion()) axes.push_back(std::move(axis));
     return axes;
   }();

@@ -1,7 +1,7 @@
 // The page of the atlas of extremes.
 //   extremes_page            runs every case, minutes of nightly ones included, writes docs/stability.md; returns 1 if a verdict is bad
 //   extremes_page --quick    the same without the nightly ones, which the page then says
-//   extremes_page --only X   axes whose name contains X, likewise
+//   extremes_page --only X   axes whose name contains X, likewise; prints their part of the page and writes none
 #include <cctype>
 #include <cstring>
 #include <iostream>
@@ -141,7 +141,10 @@ int main(int argc, char** argv) try {
     }
     if (!rows.empty()) tables.push_back(std::move(rows));
   }
-  if (only.empty()) paper::write(paper::source / "docs/stability.md", page_text(tables, left_out));
+  if (only.empty())
+    paper::write(paper::source / "docs/stability.md", page_text(tables, left_out));
+  else
+    std::cout << page_text(tables, left_out);
   std::cout << bad << " bad verdicts\n";
   return bad > 0;
 } catch (const std::exception& e) {

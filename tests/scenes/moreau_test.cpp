@@ -60,6 +60,24 @@ TEST(Moreau, BringsABallToRest) {
   EXPECT_NEAR(w.ledger("foot.lost to hysteresis [J]"), g, 1e-4 * g);
 }
 
+// At √(2H/g) (1 + e)/(1 − e). Each of some n impacts, until v < g h, comes a step late at the most, with a speed that is (1 + e) g h off: the
+// flights after it keep that for 2 (1 + e) h/(1 − e) in all.
+TEST(Moreau, EndsAllBouncesWhereTheirSeriesDoes) {
+  constexpr double g = 9.81, H = 1;
+  for (const double e : {0.5, 0.8})
+    for (const double step : {1e-3, 1e-4}) {
+      SCOPED_TRACE("restitution " + number(e) + ", step " + number(step));
+      const double end = std::sqrt(2 * H / g) * (1 + e) / (1 - e), n = std::ceil(std::log(step * std::sqrt(g / (2 * H))) / std::log(e));
+      const Whole w = run(floor_under() + "bodies:\n" + disc("ball") + "contacts:\n" +
+                          struck("foot", "ball.rim", "ground.floor", "restitution: " + number(e)) + "start: {ball: {at: [0, " +
+                          number(0.1 + H) + "]}}\n" + run_by(moreau(step), 1.1 * end, 0.1));
+      expect_sound(w);
+      ASSERT_FALSE(w.run.impacts.empty());
+      EXPECT_NEAR(w.run.impacts.back().begin, end, (n + 1) * step * (1 + 2 * (1 + e) / (1 - e)));
+      EXPECT_TRUE(std::isnan(w.run.impacts.back().end));
+    }
+}
+
 TEST(Moreau, SlidesAndRolls) {
   const double step = 1e-4;
   const Whole w = run(floor_under() + "bodies:\n" + disc("ball") + "contacts:\n" +

@@ -25,9 +25,11 @@ struct Link {
 
 /// A mechanism as it has been drawn: bodies in the pose in which they were joined, and the lines that a scene says of the rest.
 struct Drawn {
-  double size = 1;       ///< of a body, about [m]
-  bool aligned = false;  ///< all directions are multiples of a right angle, all lengths of `size` …
-  bool flat = false;     ///< … and lie on one line
+  double size = 1;        ///< of a body, about [m]
+  bool aligned = false;   ///< all directions are multiples of a right angle, all lengths of `size` …
+  bool flat = false;      ///< … and lie on one line
+  bool rigid = false;     ///< surfaces and clearances are of bodies that do not give way …
+  bool in_steps = false;  ///< … and the run is by Moreau's steps
   bool wild_masses = false, flexible = false, rough = false, loops = false;
   Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
   Link ground{.name = "ground"};

@@ -39,6 +39,7 @@ class Drawing {
     drawn_.wild_masses = chance_.one_in(4);
     drawn_.flexible = chance_.one_in(3);
     drawn_.rough = chance_.one_in(3);
+    drawn_.rigid = seed >= first_rigid, drawn_.in_steps = drawn_.rigid && seed % 2 == 1, drawn_.flexible &= !drawn_.in_steps;
     if (chance_.one_in(6))
       parallelograms();
     else if (chance_.one_in(8))
@@ -56,9 +57,7 @@ class Drawing {
       Chance more(seed * 3);
       add_surfaces(drawn_, more);
     }
-    std::ostringstream title;
-    title << "seed " << seed;
-    return written(title.str(), drawn_, chance_);
+    return written("seed " + std::to_string(seed), drawn_, chance_);
   }
 
  private:
@@ -113,10 +112,7 @@ class Drawing {
     l.r = origin;
     if (l.beam) {
       l.length = reach();
-      if (chance_.one_in(2))
-        l.r = r - l.length * along(l.angle);
-      else
-        l.r = r;
+      l.r = chance_.one_in(2) ? Vector2d(r - l.length * along(l.angle)) : r;
       l.points = {{"A", {0, 0}, drawn_.aligned ? 0 : chance_.either_way(pi)}, {"M", {l.length / 2, 0}, 0}, {"B", {l.length, 0}, 0}};
     }
     drawn_.links.push_back(l);
@@ -133,8 +129,9 @@ class Drawing {
     const auto& law = laws[static_cast<std::size_t>(chance_.below(static_cast<int>(laws.size())))];
     std::ostringstream s;
     s.precision(17);
-    s << ", clearance: {radial: " << gap << ", bearing radius: " << radius << ", bearing: " << (link(b.body).name) << ", normal: {"
-      << law.name << ": {";
+    s << ", clearance: {radial: " << gap << ", bearing radius: " << radius << ", bearing: " << (link(b.body).name) << ", ";
+    if (drawn_.rigid) return put_clearance(a, b, gap, s.str() + rigid_laws(drawn_, chance_) + "}");
+    s << "normal: {" << law.name << ": {";
     if (law.name != "hertz") s << "restitution: " << (law.zero_allowed && chance_.one_in(8) ? 0.0 : chance_.between(0.05, 1)) << ", ";
     if (chance_.one_in(2))
       s << "young: " << chance_.decades(6, 11.4) << ", poisson: 0.3";
@@ -144,9 +141,11 @@ class Drawing {
     if (chance_.one_in(2))
       s << ", friction: {ambrosio: {coefficient: " << chance_.between(0, 0.6) << ", v0: " << 1e-4 * drawn_.size * 10
         << ", v1: " << 1e-3 * drawn_.size * 10 << ", sliding: " << (chance_.one_in(2) ? "material" : "geometric") << "}}";
-    s << "}";
+    put_clearance(a, b, gap, s.str() + "}");
+  }
+  void put_clearance(const Attachment& a, const Attachment& b, double gap, const std::string& says) {
     const std::string n = name("gap");
-    drawn_.joints.push_back(n + ": {revolute: [" + a.text + ", " + b.text + "]" + s.str() + "}");
+    drawn_.joints.push_back(n + ": {revolute: [" + a.text + ", " + b.text + "]" + says + "}");
     if (chance_.one_in(2)) {
       const Vector2d e = gap * chance_.between(0, 1.0001) * along(chance_.either_way(pi));
       std::ostringstream start;

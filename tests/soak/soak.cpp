@@ -74,7 +74,8 @@ soak::Verdict in_child(const std::string& scene, soak::Question question, bool t
 std::string with(std::string scene, const std::string& key, const std::string& value) {
   if (value.empty()) return scene;
   const std::size_t begin = scene.find(key + ": ", scene.find("\nrun: ")) + key.size() + 2;
-  return scene.replace(begin, scene.find_first_of(",}", begin) - begin, value);
+  const std::size_t end = scene[begin] == '{' ? scene.find("}}", begin) + 2 : scene.find_first_of(",}", begin);
+  return scene.replace(begin, end - begin, value);
 }
 
 soak::Question question(const std::string& name) {

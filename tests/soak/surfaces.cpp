@@ -37,6 +37,7 @@ std::string shape(double radius, Chance& chance) {
 }
 
 std::string laws(const Drawn& drawn, Chance& chance) {
+  if (drawn.rigid) return rigid_laws(drawn, chance);
   const auto& all = pintle::impact_factors();
   const auto& law = all[static_cast<std::size_t>(chance.below(static_cast<int>(all.size())))];
   std::ostringstream s;
@@ -81,6 +82,19 @@ void rub_joints(Drawn& drawn, Chance& chance) {
 
 }  // namespace
 
+std::string rigid_laws(const Drawn& drawn, Chance& chance) {
+  std::ostringstream s;
+  s.precision(17);
+  s << "model: impact, restitution: " << (chance.one_in(4) ? 0.0 : chance.one_in(6) ? 1.0 : chance.between(0, 1));
+  const bool poisson = !drawn.in_steps && chance.one_in(6);
+  if (poisson) s << ", restitution law: poisson";
+  if (chance.one_in(2)) return s.str();
+  const double coefficient = chance.between(0, chance.one_in(6) ? 3 : 0.6);
+  s << ", friction: {coulomb: {coefficient: " << coefficient << "}}";
+  if (!poisson && chance.one_in(6)) s << ", tangential restitution: " << chance.unit();
+  return s.str();
+}
+
 void add_surfaces(Drawn& drawn, Chance& chance) {
   double lowest = 0, left = 0, right = 0;
   for (Link& l : drawn.links) {
@@ -108,7 +122,7 @@ void add_surfaces(Drawn& drawn, Chance& chance) {
     for (std::size_t j = 0; j < i; ++j)
       if (!drawn.links[j].profile.empty() && chance.one_in(4)) between(drawn.links[i].name, drawn.links[j].name);
   }
-  if (chance.one_in(2)) rub_joints(drawn, chance);
+  if (!drawn.in_steps && chance.one_in(2)) rub_joints(drawn, chance);
 }
 
 }  // namespace soak

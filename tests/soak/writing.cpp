@@ -93,16 +93,27 @@ class Writing {
     const auto known = pintle::choices("run", "method"), constraints = pintle::choices("run", "constraints");
     std::vector<std::string> methods(known.begin(), known.end());
     std::erase(methods, "moreau");  // which takes rigid contacts only
+    if (drawn_.rigid) std::erase(methods, "generalized-alpha");
     const std::string method = methods[static_cast<std::size_t>(chance_.below(static_cast<int>(methods.size())))];
     std::vector<std::string> fitting;  // what the method takes
     for (const std::string& c : constraints)
       if (method != "generalized-alpha" || c != "partitioning") fitting.push_back(c);
     const double tolerance = chance_.decades(-10, -4);
+    if (drawn_.in_steps) {
+      out_ << "run: {until: " << until << ", method: {moreau: {step: " << until / chance_.from_to(300, 3000)
+           << "}}, max steps: " << chance_.from_to(2000, 12000) << "}\n";
+      return write_output(until);
+    }
     out_ << "run: {until: " << until << ", method: " << method << ", constraints: " << chance_.of(fitting) << ", tolerance: " << tolerance
          << ", max steps: " << chance_.from_to(2000, 12000);
     if (chance_.one_in(10)) out_ << ", onset: {cut: " << 1e-6 * drawn_.size << "}";
     if (chance_.one_in(10)) out_ << ", max step: " << until / chance_.from_to(20, 500);
-    out_ << "}\noutput: {every: " << until / chance_.from_to(20, 60);
+    out_ << "}\n";
+    write_output(until);
+  }
+
+  void write_output(double until) {
+    out_ << "output: {every: " << until / chance_.from_to(20, 60);
     std::string points;
     for (const Link& l : drawn_.links)
       for (const Point& p : l.points) points += (points.empty() ? "" : ", ") + l.name + "." + p.name;

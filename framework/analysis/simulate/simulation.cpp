@@ -102,6 +102,7 @@ Simulation::Simulation(const Scene& scene, const Model& model, const Assembly& a
       monitor_(model),
       figures_(system_, run_),
       slow_(system_),
+      undecided_(system_),
       from_(from) {
   if (from) go_on(*from);
   states_.pass(integrator_.state().t);
@@ -122,6 +123,7 @@ void Simulation::go_on(const SavedState& from) {
 bool Simulation::advance(double t) {
   const double until = std::min(t, scene_.run.until);
   guarded(run_, last_row_, [&] {
+    if (going_ && !opened_) undecided_.see(integrator_.state());
     if (going_ && !opened_) going_ = report();
     opened_ = true;
     while (goes_on() && integrator_.state().t < until) going_ = step(until);
@@ -156,6 +158,7 @@ Run Simulation::finish() {
   warn_of_lifting(system_, run_);
   warn_of_stiffness(scene_, model_, integrator_.held_by_stability(), run_);
   slow_.warn(system_, run_.energy_in_play, run_.warnings);
+  undecided_.warn(run_.warnings);
   monitor_.warn(run_.warnings);
   run_.counts = integrator_.counts();
   run_.switched = integrator_.switched();
@@ -179,6 +182,7 @@ bool Simulation::step(double until) {
 /// Output due by the end of a step, or of an event after the last step. @returns false if the run cannot continue
 bool Simulation::after_step() {
   if (!system_.contacts.empty()) slow_.see(system_, integrator_.last(), integrator_.equations());
+  undecided_.see(integrator_.state());
   if (!report()) return false;
   if (integrator_.asks_for_row()) add_row_here();
   if (integrator_.asks_for_save() && listeners_.state) save();

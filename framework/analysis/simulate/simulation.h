@@ -8,6 +8,7 @@
 #include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/analysis/simulate/slow_contact.h"
+#include "framework/analysis/simulate/undecided_contacts.h"
 #include "framework/integration/integrator.h"
 
 namespace pintle {
@@ -90,6 +91,7 @@ class Simulation {
   DeflectionMonitor monitor_;
   RowFigures figures_;
   SlowContacts slow_;
+  UndecidedContacts undecided_;
   const SavedState* from_;
   bool started_ = false;                ///< the energy balance has begun
   bool opened_ = false, going_ = true;  ///< the start has been reported; steps succeed

@@ -9,7 +9,7 @@ namespace pintle {
 /// Relative singular values of W, scaled to unit slips, below which slips count as dependent.
 inline constexpr double one_give = 1e-4;    ///< if feet differ in height by 1 %, their compliance decides, not their lever arm
 inline constexpr double one_gap = 1e-8;     ///< gaps are closed to rounding, regardless of how far the bodies can move
-inline constexpr double one_force = 1e-10;  ///< for rigid contacts
+inline constexpr double one_force = 1e-10;  ///< of rigid contacts: a thousand times what W is known to
 
 /// Solution x of W x = rhs with the least Σ x²/capacity: where several forces could hold together, each bears a share according to the most
 /// it can hold.
