@@ -23,6 +23,8 @@ class Survey {
   /// The force that an arrow of the usual length has: of the largest of each frame the one that nine tenths of the frames do not pass [N].
   double usual_force() const;
   double largest_couple() const { return largest_couple_; }
+  /// All forces of all frames, whose arrows the picture is to hold; none where it shows a part alone.
+  const std::vector<DrawnForce>& forces() const { return forces_; }
   /// Whether a force of this kind is in some frame.
   bool gives(Giver giver) const { return givers_[static_cast<std::size_t>(giver)]; }
   const FieldRange& range() const { return range_; }
@@ -31,6 +33,7 @@ class Survey {
   std::string around_, field_;
   Eigen::AlignedBox2d moving_, all_;     ///< of what is shown; of all that moves
   std::vector<Eigen::Vector2d> places_;  ///< of the force that is shown
+  std::vector<DrawnForce> forces_;
   std::vector<std::string> owners_;
   std::vector<Eigen::Vector2d> fixed_, paths_;          ///< points of guides and of the ground; of paths
   std::vector<std::vector<Eigen::Vector2d>> surfaces_;  ///< of the ground, whole
