@@ -58,6 +58,7 @@ FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, cons
       asked_(survey.world()),
       usual_force_(style.forces ? survey.usual_force() : 0),
       largest_couple_(style.forces ? survey.largest_couple() : 0),
+      forces_(style.forces ? survey.forces() : std::vector<DrawnForce>()),
       range_(survey.range()),
       givers_{survey.gives(Giver::joint), survey.gives(Giver::contact), survey.gives(Giver::spring), survey.gives(Giver::load)},
       width_(style.width) {
@@ -144,13 +145,59 @@ void FramePicture::place_notes() {
   bottom_ = static_cast<int>(small_ * (50 + line_height * rows + field_rows() * field_row));
 }
 
-/// Chooses the scale, and the height if it is free, so that the mechanism fills the picture.
+/// So that the world fills the picture. Arrows have a length in pixels, so that the world that holds them grows as its scale falls: it
+/// gives way to them down to a share of its scale, and then they to it.
 void FramePicture::fit() {
-  world_ = asked_;
-  const int margins = bottom_ + top_, inner = static_cast<int>(width_ - 2 * rim_width * small_);
-  const double size = std::max(world_.sizes().maxCoeff(), 1e-9), room = usual_force_ > 0 ? 0.08 : 0.03;  // arrows may end outside
+  constexpr int most = 20;
+  constexpr double least_share = 0.6, close = 1.001;
+  world_ = asked_, shortened_ = 1;
+  const double size = std::max(world_.sizes().maxCoeff(), 1e-9), room = usual_force_ > 0 ? 0.08 : 0.03;
   world_.min().array() -= room * size;
   world_.max().array() += room * size;
+  choose_scale();
+  const double least = least_share * scale_;
+  for (int k = 0; k < most && scale_ > least; ++k) {
+    const Eigen::AlignedBox2d before = world_, wide = with_arrows();
+    if (before.contains(wide)) break;
+    world_ = before.merged(wide);
+    world_.min() = world_.center() + close * (world_.min() - world_.center());  // or each round would add less, and never all
+    world_.max() = world_.center() + close * (world_.max() - world_.center());
+    choose_scale();
+  }
+  shortened_ = arrow_share();
+}
+
+/// From its foot [px].
+Vector2d FramePicture::arrow_of(const DrawnForce& f) const {
+  const double size = f.force.norm();
+  return usual_force_ > 0 && size > 0 ? Vector2d(std::min(size / usual_force_, 3.0) * arrow_pixels() / size * f.force) : Vector2d(0, 0);
+}
+
+Eigen::AlignedBox2d FramePicture::with_arrows() const {
+  Eigen::AlignedBox2d out = world_;
+  for (const DrawnForce& f : forces_)
+    if (world_.contains(f.at)) out.extend(Vector2d(f.at + arrow_of(f) / scale_));
+  return out;
+}
+
+/// As much of their length as the picture holds of all arrows whose foot is in it.
+double FramePicture::arrow_share() const {
+  const Eigen::AlignedBox2d shown(Vector2d(0, bottom_), Vector2d(width_, height_ - top_));
+  double share = 1;
+  for (const DrawnForce& f : forces_) {
+    const Vector2d foot = place(f.at), way = arrow_of(f);
+    if (!shown.contains(foot)) continue;
+    for (const int i : {0, 1}) {
+      const double left = way[i] > 0 ? shown.max()[i] - foot[i] : foot[i] - shown.min()[i];
+      if (std::abs(way[i]) > left) share = std::min(share, left / std::abs(way[i]));
+    }
+  }
+  return share;
+}
+
+/// And the height where it is free.
+void FramePicture::choose_scale() {
+  const int margins = bottom_ + top_, inner = static_cast<int>(width_ - 2 * rim_width * small_);
   const Vector2d sizes = world_.sizes();
   height_ = style_.height;
   if (height_ == 0) {
@@ -167,7 +214,7 @@ Vector2d FramePicture::place(const Vector2d& world) const {
   return Vector2d(width_ / 2.0, bottom_ + (height_ - bottom_ - top_) / 2.0) + scale_ * (world - world_.center());
 }
 
-double FramePicture::arrow_pixels() const { return 0.16 * std::min(width_, height_); }
+double FramePicture::arrow_pixels() const { return 0.16 * shortened_ * std::min(width_, height_); }
 
 // Drawing -----------------------------------------------------------------------------------------
 
@@ -245,10 +292,9 @@ void FramePicture::draw_forces(const Drawing& drawing) {
   if (!style_.forces) return;
   for (const DrawnForce& f : drawing.forces) {
     const Colour& colour = arrows.at(static_cast<std::size_t>(f.giver)).colour;
-    const Vector2d at = place(f.at);
-    const double length = usual_force_ > 0 ? std::min(f.force.norm() / usual_force_, 3.0) * arrow_pixels() : 0;
+    const Vector2d at = place(f.at), way = arrow_of(f);
     constexpr double worth_it = 4, share = 0.02;  // [px], of the largest couple
-    if (length > worth_it) canvas_->arrow(at, at + length * f.force.normalized(), 4 * small_, colour);
+    if (way.norm() > worth_it) canvas_->arrow(at, at + way, 4 * small_, colour);
     if (f.couple != 0 && std::abs(f.couple) > share * largest_couple_) canvas_->turn(at, 26 * small_, f.couple > 0, 3 * small_, colour);
   }
 }

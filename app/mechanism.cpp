@@ -5,6 +5,8 @@
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "app/options.h"
 #include "app/frame_count.h"
@@ -53,6 +55,15 @@ void add_happenings(const Run& run, Rows& rows) {
   }
 }
 
+void add_what_did_not_happen(const Scene& scene, const Run& run, Rows& rows) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> names;
+  for (const SceneEvent& e : scene.events)
+    if (std::ranges::find(run.happenings, e.name, &Happening::event) == run.happenings.end()) names.push_back(e.name);
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) rows.emplace_back("event " + names[k], "did not come");
+  if (names.size() > most) rows.emplace_back("  …", std::to_string(names.size() - most) + " more events did not come");
+}
+
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows{{"time reached", number(run.t_end) + " s"},
@@ -78,6 +89,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     rows.emplace_back("contacts at " + s.contact_names[c], contacts_text(s.contacts[c], static_cast<int>(c), run.impacts));
   }
   add_happenings(run, rows);
+  add_what_did_not_happen(scene, run, rows);
   rows.emplace_back("method", model.scheme.reason + (run.switched.empty() ? "" : "; then " + run.switched));
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");

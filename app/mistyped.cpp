@@ -21,7 +21,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> out;
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->nonpositional(); }))
-    for (const std::string& name : option->get_lnames()) out.push_back("--" + name);
+    for (const std::string& name : option->get_lnames())
+      if (!option->get_group().empty()) out.push_back("--" + name);  // others are for another command
   return out;
 }
 

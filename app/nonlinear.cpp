@@ -53,7 +53,7 @@ void add_exponents(const Orbit& orbit, Rows& rows) {
 }
 
 void add_impacts(const ImpactFigures& f, std::size_t returns, Rows& rows) {
-  if (f.count == 0) return;
+  if (f.count == 0 || returns == 0) return;
   rows.emplace_back("impacts a return", number(f.count / static_cast<double>(returns)));
   rows.emplace_back("approach", number(f.least_approach) + " to " + number(f.most_approach) + " m/s, median " + number(f.median));
   rows.emplace_back("time in contact", number(100 * f.contact_share, 4) + " %");
@@ -134,6 +134,33 @@ std::string picture_of(const Nonlinear& study, const std::vector<FollowedValue>&
   return svg(panels, 1);
 }
 
+/// "3 of 26 values, the next at return 37 of 432, 2 min 5 s left".
+std::string how_far(const SweepCount& c, const Underway& now) {
+  std::string out = std::to_string(c.before + c.done) + " of " + std::to_string(c.cases) + " values";
+  if (now.values == 1) out += ", the next at " + now.at;
+  if (now.values > 1)
+    out += ", " + number(100 * now.share / static_cast<double>(now.values), 2) + " % of the next " + std::to_string(now.values);
+  return out + time_left(static_cast<double>(c.done) + now.share, static_cast<double>(c.cases - c.before), c.seconds);
+}
+
+/// Of values that have not all that was asked for. @returns the exit code
+int exit_after(const Nonlinear& study, const std::vector<FollowedValue>& values) {
+  const auto lacks = [](const FollowedValue& v) { return v.status != "finished"; };
+  const auto n = std::ranges::count_if(values, lacks);
+  if (n == 0) return ok;
+  const bool none = n == std::ssize(values);
+  const FollowedValue& first = *std::ranges::find_if(values, lacks);
+  const std::string where = study.varies() ? parameter_header(study) + " = " + first.parameter + ": " : "";
+  std::cerr << study.sweep.study.file << ": " << (none ? "" : "warning: ");
+  if (values.size() == 1)
+    std::cerr << "the motion could not be followed to the end: ";
+  else
+    std::cerr << (none ? "none" : std::to_string(n)) << " of " << values.size() << " values could " << (none ? "" : "not ")
+              << "be followed to the end; the first: ";
+  std::cerr << where << first.status << ": " << first.reason << "\n";
+  return none ? run_failed : ok;
+}
+
 }  // namespace
 
 int nonlinear(const Options& options) {
@@ -146,12 +173,13 @@ int nonlinear(const Options& options) {
   SweepEnd end;
   now_doing("following the motion");
   {
-    StatusLine line(options.quiet);
+    StudyLine line(options.quiet);
+    Underway now;
     settings.progress = [&](const SweepCount& c) {
-      if (line.due()) line.show(std::to_string(c.before + c.done) + " of " + std::to_string(c.cases) + " values");
+      line.tell([&] { return how_far(c, now); });
       return !asked_to_stop();
     };
-    end = run_nonlinear(study, out, settings);
+    end = run_nonlinear(study, out, settings, [&](const Underway& far) { now = far; });
   }
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.whole) {
@@ -161,16 +189,13 @@ int nonlinear(const Options& options) {
   }
   const std::vector<FollowedValue> values = followed(study, end.rows);
   write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, end.rows)));
-  const bool any =
-      std::ranges::any_of(values, [](const FollowedValue& v) { return v.status == "finished" || v.status == "too few returns"; });
+  const auto has_some = [](const FollowedValue& v) { return v.status == "finished" || !v.orbit.t.empty() || !v.orbit.exponents.empty(); };
   if (options.json)
     std::cout << nonlinear_json(study, end.rows);
-  else if (any && !options.quiet)
+  else if (std::ranges::any_of(values, has_some) && !options.quiet)
     print(study, end, values, out);
-  if (any) return ok;
-  std::cerr << study.sweep.study.file << ": none of " << values.size()
-            << " values could be followed to the end; the first: " << values.front().status << ": " << values.front().reason << "\n";
-  return run_failed;
+  std::cout.flush();
+  return exit_after(study, values);
 }
 
 }  // namespace pintle::app

@@ -202,11 +202,11 @@ int write(const CLI::App& command, Choice& choice) {
   return app::ok;
 }
 
-/// @throws std::invalid_argument  the file's ending is for the other command
+/// @throws std::invalid_argument  the file does not end as what the command makes
 void judge_ending(const std::string& name, const fs::path& file) {
-  if (name == "pintle film" && file.extension() == ".png")
+  if (name == "pintle film" && !FilmFile::is_film(file))
     throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
-  if (name == "pintle picture" && FilmFile::is_film(file))
+  if (name == "pintle picture" && file.extension() != ".png")
     throw std::invalid_argument(file.string() + ": a picture ends in .png; films are made by pintle film");
 }
 

@@ -37,6 +37,8 @@ struct PlottedColumn {
 
 /// The tables in a folder whose first column is a time.
 std::vector<fs::path> tables_in(const fs::path& directory) {
+  if (!fs::is_directory(directory))
+    throw ResultsError(directory.string() + ": there is no such folder; name one that `pintle run` has written");
   std::vector<fs::path> out;
   for (const char* const name : {"trajectory.csv", "ledger.csv"})
     if (fs::exists(directory / name)) out.push_back(directory / name);
@@ -67,14 +69,14 @@ std::vector<std::string> signals_of(const fs::path& directory) {
   const bool is_signal = std::ranges::find(signals, name) != signals.end();
   const std::string near = is_signal ? name : nearest(name, all);
   std::string message = directory.string() + ": has no column " + pintle::quoted(name);
-  if (near.empty()) throw ResultsError(message + "; the first lines of trajectory.csv and ledger.csv list all columns");
+  if (near.empty())
+    throw SceneError(message + "." + did_you_mean(name, known) + " The first line of trajectory.csv and of ledger.csv names them all");
   if (!is_signal) message += "; did you mean " + pintle::quoted(near) + "?";
-  if (std::ranges::find(known, near) != known.end()) throw ResultsError(message);
+  if (std::ranges::find(known, near) != known.end()) throw SceneError(message);
   std::string label = near;
   std::ranges::replace(label, '.', ' ');
-  throw ResultsError(message + (is_signal ? ", which is" : " That is") +
-                     " a signal of its scene; to write it as a column, add `outputs: {" + label + ": " + near +
-                     "}` to the scene and run it again");
+  throw SceneError(message + (is_signal ? ", which is" : " That is") + " a signal of its scene; to write it as a column, add `outputs: {" +
+                   label + ": " + near + "}` to the scene and run it again");
 }
 
 /// The table with a column of this name, with or without its unit.
@@ -120,8 +122,8 @@ std::vector<Panel> panels_of(const Options& options, bool one_each) {
     const fs::path table = table_with(tables, name);
     const PlottedColumn y = read_column(table, name, against != "t");
     if (against != "t" && y.t != x.t)
-      throw ResultsError("--against " + against + ": is in another table than " + pintle::quoted(name) +
-                         ", with other rows; name a column of the same table");
+      throw SceneError("--against " + against + ": stands in another table than " + pintle::quoted(name) +
+                       ", with other rows; name one of the same");
     const std::string unit = one_each ? std::to_string(out.size()) : y.name.unit;
     if (!of_unit.contains(unit)) {
       of_unit[unit] = out.size();

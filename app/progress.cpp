@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -166,6 +167,33 @@ bool StatusLine::due() const { return on_ && clock::now() - last_ > std::chrono:
 void StatusLine::show(const std::string& text) {
   std::cerr << "\r  " << text << "\033[K" << std::flush;
   last_ = clock::now(), shown_ = true;
+}
+
+StudyLine::StudyLine(bool quiet) : logs_(!quiet && !::isatty(STDERR_FILENO)), line_(quiet) {}
+
+bool StudyLine::log_due() const { return logs_ && clock::now() - last_ > std::chrono::seconds(30); }
+
+void StudyLine::log(const std::string& text) {
+  last_ = clock::now();
+  std::cerr << text << std::endl;
+}
+
+std::string span_text(double seconds) {
+  std::ostringstream s;
+  const long whole = std::lround(seconds);
+  if (seconds < 10)
+    s << std::setprecision(2) << seconds << " s";
+  else if (whole < 120)
+    s << whole << " s";
+  else if (whole < 7200)
+    s << whole / 60 << " min " << whole % 60 << " s";
+  else
+    s << whole / 3600 << " h " << whole % 3600 / 60 << " min";
+  return s.str();
+}
+
+std::string time_left(double done, double all, double seconds) {
+  return done > 0 && seconds > 0 ? ", " + span_text((all - done) / done * seconds) + " left" : "";
 }
 
 bool Progress::operator()(double t) {

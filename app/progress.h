@@ -51,6 +51,30 @@ class StatusLine {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Of a study: the same line; where there is no terminal, a line every half minute.
+class StudyLine {
+ public:
+  explicit StudyLine(bool quiet);
+  /// Shows the text that `say` makes, if it is time to.
+  template <class Say>
+  void tell(const Say& say) {
+    if (line_.due()) line_.show(say());
+    if (log_due()) log(say());
+  }
+
+ private:
+  bool log_due() const;
+  void log(const std::string& text);
+
+  bool logs_;
+  StatusLine line_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::string span_text(double seconds);  ///< "8.3 s", "32 s", "5 min 2 s"
+/// ", 32 s left" where `done` of `all` took so many seconds; nothing where none is done.
+std::string time_left(double done, double all, double seconds);
+
 /// Progress of a run, by the time reached.
 class Progress {
  public:

@@ -62,7 +62,10 @@ void Survey::add(const Drawing& drawing) {
       for (Eigen::Index i = 0; i < body.points.cols(); ++i) moving_.extend(Eigen::Vector2d(body.points.col(i)));
 
   for (const DrawnForce& f : drawing.forces)
-    if (!whole && drawing.owners.at(static_cast<std::size_t>(f.owner)) == around_) places_.push_back(f.at);
+    if (whole)
+      forces_.push_back(f);
+    else if (drawing.owners.at(static_cast<std::size_t>(f.owner)) == around_)
+      places_.push_back(f.at);
 
   double force = 0;
   for (const DrawnForce& f : drawing.forces) {
@@ -81,7 +84,12 @@ Eigen::AlignedBox2d Survey::world() const {
   Eigen::AlignedBox2d world = moving_;
   if (!around_.empty() && world.isEmpty()) {
     const bool known = std::ranges::find(owners_, around_) != owners_.end();
-    if (!known) throw std::invalid_argument("--around " + around_ + ": nothing with this name is drawn." + did_you_mean(around_, owners_));
+    if (!known) {
+      std::vector<std::string> names;  // of two gears that one joint couples each has its name
+      for (const std::string& owner : owners_)
+        if (std::ranges::find(names, owner) == names.end()) names.push_back(owner);
+      throw std::invalid_argument("--around " + around_ + ": nothing of that name is drawn." + did_you_mean(around_, names));
+    }
     if (places_.empty())
       throw std::invalid_argument("--around " + around_ + ": it has no position in these frames; name a body or a joint that it acts on");
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.15 * (all_.isEmpty() ? 1 : all_.sizes().maxCoeff()));

@@ -24,6 +24,8 @@ class Survey {
   /// The force for an arrow of the usual length: of the largest force in each frame, the 90 % quantile over frames [N].
   double usual_force() const;
   double largest_couple() const { return largest_couple_; }
+  /// All forces of all frames, whose arrows the picture is to hold; none where it shows a part alone.
+  const std::vector<DrawnForce>& forces() const { return forces_; }
   /// Whether a force of this kind occurs in any frame.
   bool gives(Giver giver) const { return givers_[static_cast<std::size_t>(giver)]; }
   const FieldRange& range() const { return range_; }
@@ -32,6 +34,7 @@ class Survey {
   std::string around_, field_;
   Eigen::AlignedBox2d moving_, all_;     ///< of what is shown; of everything that moves
   std::vector<Eigen::Vector2d> places_;  ///< of the force shown
+  std::vector<DrawnForce> forces_;
   std::vector<std::string> owners_;
   std::vector<Eigen::Vector2d> fixed_, paths_;          ///< points of guides and of the ground; of paths
   std::vector<std::vector<Eigen::Vector2d>> surfaces_;  ///< of the ground, complete

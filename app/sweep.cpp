@@ -1,11 +1,7 @@
 // pintle sweep: the cases of a study, by worker threads and processes.
 #include "framework/study/sweep/sweep.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -21,52 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string span_text(double seconds) {
-  std::ostringstream s;
-  const long whole = std::lround(seconds);
-  if (seconds < 10)
-    s << std::setprecision(2) << seconds << " s";
-  else if (whole < 120)
-    s << whole << " s";
-  else if (whole < 7200)
-    s << whole / 60 << " min " << whole % 60 << " s";
-  else
-    s << whole / 3600 << " h " << whole % 3600 / 60 << " min";
-  return s.str();
-}
-
 /// "137 of 400 cases, 2 not finished, 8.31 a second, 32 s left".
 std::string line(const SweepCount& c) {
   std::ostringstream s;
   s << c.before + c.done << " of " << c.cases << " cases";
   if (c.trouble > 0) s << ", " << c.trouble << " not finished";
   if (c.done > 0 && c.seconds > 0) {
-    const double rate = static_cast<double>(c.done) / c.seconds;
-    s << std::setprecision(3) << ", " << rate << " a second, " << span_text(static_cast<double>(c.cases - c.before - c.done) / rate)
-      << " left";
+    const double done = static_cast<double>(c.done);
+    s << std::setprecision(3) << ", " << done / c.seconds << " a second"
+      << time_left(done, static_cast<double>(c.cases - c.before), c.seconds);
   }
   return s.str();
 }
-
-/// A line on the terminal; without a terminal, a line every half minute.
-class SweepProgress {
- public:
-  explicit SweepProgress(bool quiet) : logs_(!quiet && !::isatty(STDERR_FILENO)), line_(quiet) {}
-  bool operator()(const SweepCount& count) {
-    if (line_.due()) line_.show(line(count));
-    const auto now = std::chrono::steady_clock::now();
-    if (logs_ && now - last_ > std::chrono::seconds(30)) {
-      last_ = now;
-      std::cerr << line(count) << std::endl;
-    }
-    return !asked_to_stop();
-  }
-
- private:
-  bool logs_;
-  StatusLine line_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   std::cout << (sweep.study.title.empty() ? sweep.study.file : sweep.study.title) << "\n";
@@ -106,8 +68,11 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   SweepEnd end;
   now_doing("running the cases");
   {
-    SweepProgress progress(options.quiet || !leads);
-    settings.progress = [&](const SweepCount& count) { return progress(count); };
+    StudyLine progress(options.quiet || !leads);
+    settings.progress = [&](const SweepCount& count) {
+      progress.tell([&] { return line(count); });
+      return !asked_to_stop();
+    };
     end = run_sweep(sweep, out, settings);
   }
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";

@@ -228,7 +228,9 @@ class Builder {
     if (d.kind == DriverKind::angle) {
       model_.system.joints.push_back(AngleDriver{a, b, d.law.at});
     } else {
-      if (!d.from_present && !(d.law.at(0).value > 0)) wrong(d.place, "a driven distance must stay above 0; at t = 0 it is not");
+      if (!d.from_present && !(d.law.at(0).value > 0))
+        wrong(d.place, "a driven distance must stay above 0; at t = 0 its law is " + number_text(d.law.at(0).value, 6) +
+                           " m: write `present + …`, a longer one, or drive from a point further off");
       model_.system.joints.push_back(DistanceDriver{a, b, d.law.at});
     }
     model_.system.joint_names.push_back(d.name);

@@ -249,6 +249,26 @@ double undriven_motion(const Scene& scene, const System& system, const RateSpect
   return std::max({seen, swing, pushed, pushed_by_laws_of_time(scene, system)});
 }
 
+/// Whether rates of own states change with the time alone.
+bool are_led_by_time(const System& system, double until) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(system.n_y());
+  start_own_states(system, y);
+  return std::ranges::any_of(system.states, [&](const auto& state) {
+    std::array<double, most_law_inputs> in, slope{};
+    const SignalLaw& law = system.laws[at(state.rate)];
+    for (std::size_t i = 0; i < law.in.size(); ++i) in[i] = signal_at(system, system.signals[at(law.in[i])], y);
+    const auto rate = [&](double t) { return law.of(t, in.data(), slope.data()); };
+    return rate(0) != rate(0.3 * until) || rate(0) != rate(until);
+  });
+}
+
+/// There are own states that lead each other, and nothing else that moves by a law: no forces, friction, contacts, shapes or drivers.
+bool has_states_alone(const Scene& scene, const System& system) {
+  return std::ranges::none_of(system.joints, [](const Joint& j) { return driver_law(j) != nullptr; }) && !system.states.empty() &&
+         system.forces.empty() && system.frictions.empty() && system.contacts.empty() && system.n() == system.n_rigid() &&
+         !are_led_by_time(system, scene.run.until);
+}
+
 Constraints constraints_of(const Scene& scene, bool is_explicit) {
   const std::string& c = scene.run.constraints;
   if (c == "partitioning" && !is_explicit)
@@ -269,15 +289,8 @@ bool has_rigid_contacts(const System& system) {
 
 std::string damped_text(const RateSpectrum& s) { return s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"; }
 
-void choose(const Scene& scene, const System& system, const RateSpectrum& s, Scheme& scheme) {
-  const Demand d = demand(s, scene.run.tolerance);
-  const double needed = std::max(d.stability, d.accuracy);
-  const bool rigid = has_rigid_contacts(system);
-  const bool is_implicit = !rigid && needed > dearer * d.implicit && scene.run.constraints != "partitioning";
-  if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
-  if (!is_implicit && scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
-  std::string& why = scheme.reason;
-  why = name(scheme) + ", chosen because Dormand and Prince's pair needs about " + short_number(needed) + " steps a second";
+std::string reason_of(const RateSpectrum& s, const Demand& d, bool rigid) {
+  std::string why = "Dormand and Prince's pair needs about " + short_number(std::max(d.stability, d.accuracy)) + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
     why +=
@@ -285,9 +298,19 @@ void choose(const Scene& scene, const System& system, const RateSpectrum& s, Sch
   } else {
     why += " for its accuracy";
   }
-  why += rigid ? "; each impact of rigid bodies is an event" : ", and generalised-alpha about " + short_number(d.implicit);
-  const bool can_stiffen = !rigid && !s.parts.empty();
-  if (!is_implicit && can_stiffen && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;
+  return why + (rigid ? "; each impact of rigid bodies is an event" : ", and generalised-alpha about " + short_number(d.implicit));
+}
+
+void choose(const Scene& scene, const System& system, const RateSpectrum& s, Scheme& scheme) {
+  const Demand d = demand(s, scene.run.tolerance);
+  const bool rigid = has_rigid_contacts(system), states_alone = has_states_alone(scene, system);
+  const bool is_implicit =
+      !rigid && !states_alone && std::max(d.stability, d.accuracy) > dearer * d.implicit && scene.run.constraints != "partitioning";
+  if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
+  scheme.reason = name(scheme) + ", chosen because " + (states_alone ? "only steps tell how fast own states move" : reason_of(s, d, rigid));
+  if (is_implicit) return;
+  if (scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
+  if (!rigid && !s.parts.empty() && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;
 }
 
 }  // namespace

@@ -127,7 +127,8 @@ class Settling {
     TimeLaw& law = *driver_law(made);
     const double present = open(made) + law(0).value;
     if (d.kind == DriverKind::distance && !(present + law(0).value > 0))
-      wrong(d.place, "a driven distance must stay above 0; at t = 0 it is not");
+      wrong(d.place, "a driven distance must stay above 0; at t = 0 it is " + number_text(present + law(0).value, 6) +
+                         " m: drive from a point further off, or by a law that adds more");
     law = [present, added = law](double t) {
       const Jet jet = added(t);
       return Jet{present + jet.value, jet.rate, jet.accel};

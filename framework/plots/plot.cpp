@@ -64,10 +64,15 @@ Axes axes_of(const Panel& p, double x_at, double y_at) {
       if (fit_x) x0 = std::min(x0, c.x[i]), x1 = std::max(x1, c.x[i]);
       if (fit_y && (fit_x || (c.x[i] >= x0 && c.x[i] <= x1))) y0 = std::min(y0, c.y[i]), y1 = std::max(y1, c.y[i]);
     }
-  if (fit_y) {
-    const double room = y1 > y0 ? 0.05 * (y1 - y0) : 1e-3 * std::max(1.0, std::abs(y0));
-    y0 -= room, y1 += room;
-  }
+  if (!(x0 <= x1)) x0 = 0, x1 = 1;  // there are no points
+  if (!(y0 <= y1)) y0 = 0, y1 = 1;
+  const auto give_room = [](double& a, double& b, double share) {
+    const double room = b > a ? share * (b - a) : 1e-3 * std::max(1.0, std::abs(a));
+    a -= room, b += room;
+  };
+  if (fit_y) give_room(y0, y1, 0.05);
+  const bool dotted = std::ranges::any_of(p.curves, [](const Curve& c) { return c.points; });
+  if (fit_x && (dotted || x0 == x1)) give_room(x0, x1, 0.02);  // dots at the ends are to be whole
   if (p.equal) {
     const double scale = std::max((x1 - x0) / width, (y1 - y0) / height) * 1.05;
     const double xm = (x0 + x1) / 2, ym = (y0 + y1) / 2;

@@ -137,6 +137,23 @@ std::vector<Measure> read_curves(const StudyFile& file) {
   return out;
 }
 
+namespace {
+
+/// What stands beside `section` and `lyapunov` in studies that have these stands in a section of others.
+void refuse_loose_limits(const Node& root) {
+  if (root.has("section") || root.has("lyapunov")) return;
+  for (const char* limit : {"limit", "most steps"}) {
+    if (!root.has(limit)) continue;
+    const bool sweeps = root.has("sweep"), only_steps = limit == std::string("most steps");
+    for (const char* section : {"fit", "sensitivity"})
+      if (only_steps && !sweeps && root.has(section))
+        root.at(limit).fail(std::string("stands under ") + section + " in this study; move it there");
+    root.at(limit).fail("stands under sweep in this study; move it there");
+  }
+}
+
+}  // namespace
+
 StudyFile read_study(const std::filesystem::path& path, const std::string& instead) {
   constexpr std::size_t most_bytes = std::size_t{100} << 20;
   StudyFile file;
@@ -149,6 +166,7 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
                      "is a scene, not a study. Write a study beside it, for example  {scene: " + path.filename().string() + ", " +
                          (instead.empty() ? example_of_sweep(root) : instead) + "}  (docs/studies.md)");
   check_keys(root, "study");
+  refuse_loose_limits(root);
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
   const std::filesystem::path scene_path = path.parent_path() / scene.text("the scene's file, beside the study");

@@ -52,6 +52,56 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.say("run", "swing.pintle.yaml", "-q").returncode, 0)
         self.assertTrue((self.place / "runs" / "swing" / "run.json").exists())
 
+    def test_events_that_did_not_come_are_told(self):
+        (self.place / "events.yaml").write_text(pendulum + "events:\n  far: {when: rod.angle > 30 rad, do: {stop: far}}\n"
+                                                           "  down: {when: rod.angle < -0.1 deg, do: {row: true}}\n")
+        said = self.say("run", "events.yaml").stdout
+        self.assertRegex(said, "event far +did not come")
+        self.assertRegex(said, "event down +[0-9.e-]+ s: ")
+        self.assertNotRegex(said, "event down +did not come")
+
+    def refusal(self, more, scene=pendulum):
+        (self.place / "refused.yaml").write_text(scene + more)
+        done = self.say("check", "refused.yaml")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        return done.stderr
+
+    def test_signals_of_worn_joints_are_told_of_ideal_ones(self):
+        for column in ("normal", "depth", "ex", "ey", "rate", "friction", "sliding"):
+            for use in (f"events: {{knock: {{when: hinge.{column} > 0, do: {{stop: now}}}}}}\n", f"outputs: {{seen: 2*hinge.{column}}}\n",
+                        f"forces: {{f: {{torque: 1 m*hinge.{column}, on: rod}}}}\n"):
+                said = self.refusal(use)
+                self.assertIn(f'refused.yaml:7: ', said)
+                self.assertIn(f'there is no signal "hinge.{column}". "hinge" is an ideal joint, and has angle, fx, fy, speed and torque', said)
+                self.assertIn("only joints with clearance", said)
+        self.assertIn('Did you mean "rod.angle"?', self.refusal("outputs: {seen: rod.angel}\n"))
+        self.assertIn('"rod" has alpha', self.refusal("outputs: {seen: rod.stroke}\n"))
+
+    def test_a_table_that_is_not_there_is_told_by_the_line_that_names_it(self):
+        (self.place / "load.csv").write_text("0 0\n1 1\n")
+        (self.place / "load.txt").write_text("")
+        for use in ("drivers: {d: {angle: [ground, rod], law: {table: lod.csv}}}\n", "forces: {f: {torque: {table: lod.csv, over: rod.angle}, on: rod}}\n",
+                    "outputs: {o: {table: lod.csv, over: rod.angle}}\n"):
+            said = self.refusal(use)
+            self.assertIn("refused.yaml:7: ", said)
+            self.assertIn('table: "lod.csv": there is no such file; check the path. Did you mean "load.csv"?', said)
+
+    def test_names_that_parameters_cannot_have(self):
+        for name in ("m", "g", "s", "N", "J", "W", "Pa", "bar", "rad", "deg", "rev", "rpm", "mm", "kg", "ms", "mN"):
+            said = self.refusal(f"parameters: {{{name}: 1}}\n")
+            self.assertIn(f'refused.yaml:7: parameters.{name}: "{name}" cannot name a parameter: {name} is a unit; choose another name, such as {name}_1', said)
+        for name, why in (("sin", "is a function"), ("min", "is a function"), ("t", "is the time"), ("pi", "is a constant"), ("present", "at the start")):
+            self.assertIn(why, self.refusal(f"parameters: {{{name}: 1}}\n"))
+        for name in ("F", "A", "V", "H", "C", "J_1"):
+            (self.place / "named.yaml").write_text(pendulum + f"parameters: {{{name}: 1}}\n")
+            self.assertEqual(self.say("check", "named.yaml").returncode, 0, name)
+
+    def test_a_driven_distance_of_nothing_is_told_with_a_remedy(self):
+        scene = "ground: {points: {G: [0, 0]}}\nbodies: {b: {rigid: {mass: 1, inertia: 1}}}\njoints: {j: {prismatic: [ground.G, b]}}\nrun: {until: 1}\n"
+        said = self.refusal("drivers: {d: {distance: [ground.G, b], law: -1 m + 1 m/s*t}}\n", scene)
+        self.assertIn("refused.yaml:5: drivers.d: a driven distance must stay above 0; at t = 0 its law is -1 m: write `present", said)
+
     def test_redundancy_is_told_in_few_lines(self):
         bars = "\n".join(f"  bar {k}: {{rigid: {{mass: 1 kg, inertia: 0.1}}, points: {{A: [0, 0], B: [0, 1]}}}}" for k in range(40))
         pins = "\n".join(f"  foot {k}: {{revolute: [ground [{k}, 0], bar {k}.A]}}\n  head {k}: {{revolute: [plate.P{k}, bar {k}.B]}}" for k in range(40))

@@ -228,6 +228,88 @@ TEST(Nonlinear, ASectionOfHenonAndHeilesKeepsItsEnergy) {
   }
 }
 
+/// All that a study is told while it goes on, and what it has come to.
+struct Told {
+  SweepEnd end;
+  std::vector<FollowedValue> values;
+  std::vector<double> shares;  ///< of the values that are being followed
+};
+
+Told told_of(const SweepFolder& folder, const std::string& scene, const std::string& text) {
+  folder.write("scene.yaml", scene);
+  folder.write("study.yaml", "scene: scene.yaml\n" + text);
+  const Nonlinear study = read_nonlinear(folder / "study.yaml");
+  Told out;
+  out.end = run_nonlinear(study, folder / "out", {}, [&](const Underway& now) {
+    if (now.values > 0) out.shares.push_back(now.share / static_cast<double>(now.values));
+  });
+  out.values = followed(study, out.end.rows);
+  return out;
+}
+
+// More than any machine does in the time: a million returns are a thousand million steps.
+TEST(Nonlinear, AValueOverItsLimitKeepsWhatCameAndTheNextBegins) {
+  const SweepFolder folder;
+  const Told told = told_of(folder, lorenz,
+                            "section: {every: 100 s, record: X, transient: 0, returns: 1000000}\nover: {rho: [28, 29]}\n"
+                            "limit: 0.5 s\n");
+  ASSERT_EQ(told.values.size(), 2u);
+  for (const FollowedValue& value : told.values) {
+    EXPECT_EQ(value.status, "over its limit");
+    EXPECT_NE(value.reason.find("of computing, at return"), std::string::npos) << value.reason;
+    EXPECT_LT(value.orbit.t.size(), 1'000'000u);
+  }
+  EXPECT_TRUE(told.end.whole);
+}
+
+TEST(Nonlinear, AValueOfTooManyStepsFailsAtThatStep) {
+  for (const char* asked :
+       {"section: {every: 1 s, record: X}", "section: {when: Z > rho - 1, record: X}", "lyapunov: {every: 1 s, over: 100 s}"}) {
+    const SweepFolder folder;
+    const Told told = told_of(folder, lorenz, std::string(asked) + "\nmost steps: 50\n");
+    ASSERT_EQ(told.values.size(), 1u);
+    EXPECT_EQ(told.values[0].status, "failed") << asked;
+    EXPECT_EQ(told.end.rows[0].steps, 50) << asked;
+  }
+}
+
+TEST(Nonlinear, TellsHowFarAValueIs) {
+  for (const char* asked :
+       {"section: {every: 4 s, record: X, transient: 20, returns: 20}", "section: {when: Z > rho - 1, record: X, returns: 20}",
+        "section: {every: 1 s, record: X, transient: 5, returns: 5}\nlyapunov: {every: 1 s, over: 100 s}"}) {
+    const SweepFolder folder;
+    const Told told = told_of(folder, lorenz, std::string(asked) + "\n");
+    EXPECT_EQ(told.values.at(0).status, "finished") << told.values[0].reason;
+    double before = 0;
+    for (const double share : told.shares) {
+      EXPECT_GE(share, before) << asked;
+      EXPECT_LE(share, 1) << asked;
+      before = share;
+    }
+  }
+}
+
+TEST(Nonlinear, LimitsStandWhereTheirStudyHasThem) {
+  const SweepFolder folder;
+  folder.write("scene.yaml", lorenz);
+  const auto said = [&](const std::string& text, const auto& read) -> std::string {
+    folder.write("study.yaml", "scene: scene.yaml\n" + text);
+    try {
+      read(folder / "study.yaml", Overrides{});
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string of_a_sweep = said("measure: max X\nsweep: {grid: {rho: [28]}}\nlimit: 1 s\n", read_sweep);
+  EXPECT_NE(of_a_sweep.find("study.yaml:4"), std::string::npos) << of_a_sweep;
+  EXPECT_NE(of_a_sweep.find("under sweep"), std::string::npos) << of_a_sweep;
+  const std::string none = said("section: {every: 1 s, record: X}\nlimit: 0 s\n", read_nonlinear);
+  EXPECT_NE(none.find("study.yaml:3"), std::string::npos) << none;
+  const std::string steps = said("section: {every: 1 s, record: X}\nmost steps: 0\n", read_nonlinear);
+  EXPECT_NE(steps.find("most steps"), std::string::npos) << steps;
+}
+
 struct Refused {
   const char* study;
   std::vector<std::string> words;

@@ -205,7 +205,7 @@ std::string fault_of_name(std::string_view name) {
   if (name == "present") return "present is what a length or angle is at the start; choose another name";
   // Single letters have many meanings: if a scene defines F, it means that there, and not farad.
   if (const Unit* unit = find_unit(name); unit && unit->dimension.current == 0)
-    return std::string(name) + " is a unit; choose another name";
+    return std::string(name) + " is a unit; choose another name, such as " + std::string(name) + "_1";
   if (is_function(name)) return std::string(name) + " is a function; choose another name";
   return {};
 }

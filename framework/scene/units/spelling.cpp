@@ -165,6 +165,28 @@ bool Speller::signal() {
   return false;
 }
 
+/// What stands behind the owner's dot, and behind no other.
+std::vector<std::string> columns_of(const std::vector<std::string>& signals, const std::string& owner) {
+  std::vector<std::string> out;
+  for (const std::string& signal : signals)
+    if (signal.starts_with(owner) && signal.find('.', owner.size()) == std::string::npos) out.push_back(signal.substr(owner.size()));
+  return out;
+}
+
+/// What an owner has in place of a column that it has not. Where that is one of joints with clearance, and this joint has none, that is said:
+/// it may have been deleted.
+std::string hint_of(const std::string& owner, const std::string& column, const std::vector<std::string>& columns) {
+  static const std::vector<std::string> worn{"normal", "depth", "ex", "ey", "rate", "friction", "sliding"};
+  const auto has = [&](const char* name) { return std::ranges::find(columns, name) != columns.end(); };
+  const std::string name = "\"" + owner.substr(0, owner.size() - 1) + "\"", known = listed(columns, "and");
+  if (has("angle") && has("fx") && std::ranges::find(worn, column) != worn.end())
+    return " " + name + " is an ideal joint, and has " + known + "; only joints with clearance" +
+           (column == "friction" || column == "sliding" ? " or friction" : "") + " have " + column +
+           (column == "normal" ? ". The size of its force is sqrt(" + owner + "fx^2 + " + owner + "fy^2)" : "");
+  const std::string near = nearest(column, columns);
+  return near.empty() ? " " + name + " has " + known : " Did you mean \"" + owner + near + "\"?";
+}
+
 // A dotted name that looks like a signal but is unknown: owner, point, letter.
 void Speller::refuse_dotted() const {
   const std::size_t end = std::min(rest_.find_first_of("+*/^()<>=&|!,"), rest_.find(" - "));
@@ -176,9 +198,12 @@ void Speller::refuse_dotted() const {
   if (!known_.signals) fail("\"" + name + "\" changes with the motion, but this value cannot: write numbers, units and parameters");
   std::vector<std::string> names;
   for (const auto& [known, what] : *known_.signals) names.push_back(known);
-  std::string hint = did_you_mean(name, names);
+  const std::string owner = name.substr(0, name.rfind('.') + 1);
+  const std::vector<std::string> columns = columns_of(names, owner);
+  std::string hint = columns.empty() ? did_you_mean(name, names) : hint_of(owner, name.substr(owner.size()), columns);
   constexpr std::size_t most = 300;
-  if (hint.size() > most) hint = " Signals are written owner.column, as trajectory.csv does: crank.angle, slider.P.vx, coil.length";
+  if (columns.empty() && hint.size() > most)
+    hint = " Signals are written owner.column, as trajectory.csv does: crank.angle, slider.P.vx, coil.length";
   fail("there is no signal \"" + name + "\"." + hint);
 }
 

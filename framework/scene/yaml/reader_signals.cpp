@@ -237,9 +237,9 @@ void check_signal_name(const Node& node, const Scene& scene, const char* what) {
   if (const std::string fault = fault_of_name(name);
       !fault.empty() && (std::ranges::all_of(name, [](char c) { return c != ' ' && c != '-'; }) || !std::isalpha(name.front())))
     node.fail("\"" + name + "\" cannot name " + what + ": " + fault);
-  if (node.source().parameters.contains(name)) node.fail("\"" + name + "\" is also a parameter; give this " + what + " another name");
+  if (node.source().parameters.contains(name)) node.fail("\"" + name + "\" is a parameter too; give " + what + " a name of its own");
   if (std::ranges::find(scene.states, name, &SceneState::name) != scene.states.end())
-    node.fail("\"" + name + "\" is also a state; give this " + what + " another name");
+    node.fail("\"" + name + "\" is a state too; give " + what + " a name of its own");
 }
 
 }  // namespace

@@ -87,12 +87,25 @@ Law read_table_law(const Node& node, const Dimension& expected, Smoothness smoot
 }  // namespace
 
 std::filesystem::path table_file(const Node& node, const std::filesystem::path& folder) {
-  const std::string file = node.at("table").file("the name of a file beside the scene");
+  namespace fs = std::filesystem;
+  const Node named = node.at("table");
+  const std::string file = named.file("the name of a file beside the scene");
+  fs::path path;
   try {
-    return contained_file(file, folder);
+    path = contained_file(file, folder);
   } catch (const FileRefused& rejected) {
-    node.at("table").fail(rejected.what());
+    named.fail(rejected.what());
   }
+  std::error_code error;
+  if (fs::exists(path, error)) return path;  // what else is wrong with it is said where it is read
+  std::vector<std::string> beside;
+  const fs::path place = path.has_parent_path() ? path.parent_path() : ".";
+  for (auto entry = fs::directory_iterator(place, error); !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().extension() == path.extension()) beside.push_back(entry->path().filename().string());
+  std::ranges::sort(beside);  // folders have no order
+  const std::string near = nearest(path.filename().string(), beside);
+  named.fail("\"" + file + "\": there is no such file; check the path" +
+             (near.empty() ? "" : ". Did you mean \"" + (fs::path(file).parent_path() / near).string() + "\"?"));
 }
 
 void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, double until) {

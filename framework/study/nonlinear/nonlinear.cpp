@@ -38,7 +38,7 @@ class ChainWorkers {
     queue_.close();
   }
 
-  void work(const SweepSettings& settings, SweepCount& count) {
+  void work(const SweepSettings& settings, const std::function<void(const Underway&)>& far, SweepCount& count) {
     const auto begin = wall_clock::now();
     std::vector<std::thread> threads;
     const int most = static_cast<int>(std::min(static_cast<std::size_t>(settings.threads), chains_.size()));
@@ -48,6 +48,7 @@ class ChainWorkers {
       std::this_thread::sleep_for(std::chrono::milliseconds(seconds_since(begin) < 1 ? 5 : 50));
       look(count);
       count.seconds = seconds_since(begin);
+      if (far) far(underway());
       if (settings.progress && !settings.progress(count)) stopped_ = true, queue_.clear();
     }
     for (std::thread& thread : threads) thread.join();
@@ -57,6 +58,13 @@ class ChainWorkers {
   }
 
  private:
+  Underway underway() {
+    const std::lock_guard lock(mutex_);
+    Underway out;
+    for (const auto& [number, far] : begun_) ++out.values, out.share += far.share, out.at = far.at;
+    return out;
+  }
+
   void look(SweepCount& count) {
     const std::lock_guard lock(mutex_);
     count.done = done_, count.trouble = troubled_, count.busy = busy_;
@@ -85,6 +93,7 @@ class ChainWorkers {
       } else {
         const auto begin = wall_clock::now();
         Row row = follow_one(number, known ? &before : nullptr);
+        tell(number, {});
         if (stopped_ || row.status == status_text(Status::interrupted)) return;
         row.worker = "0." + std::to_string(thread);
         row.run_seconds = seconds_since(begin);
@@ -98,12 +107,29 @@ class ChainWorkers {
     }
   }
 
+  struct Far {
+    double share = 0;
+    std::string at;
+  };
+  /// How far a value is; nothing: it has ended.
+  void tell(std::size_t number, const std::optional<Far>& far) {
+    const std::lock_guard lock(mutex_);
+    if (far)
+      begun_[number] = *far;
+    else
+      begun_.erase(number);
+  }
+
   Row follow_one(std::size_t number, const Orbit* before) {
     Row row;
     row.number = number;
+    const OrbitLimits limits{.seconds = study_.sweep.limits.seconds, .go_on = [&](double share, const std::string& at) {
+                               tell(number, Far{share, at});
+                               return !stopped_;
+                             }};
     try {
       const OrbitEnd end = follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(study_.case_of(number)), study_.question,
-                                        before, bodies_, [this] { return !stopped_; });
+                                        before, bodies_, limits);
       row.status = end.status, row.reason = end.reason, row.values = end.orbit.numbers(), row.units = end.units;
       row.t_end = end.orbit.end_t, row.steps = end.steps, row.impacts = end.impacts;
     } catch (const std::bad_alloc&) {
@@ -123,6 +149,7 @@ class ChainWorkers {
   std::atomic<int> running_ = 0;
   std::mutex mutex_;  ///< of what follows
   std::size_t done_ = 0, troubled_ = 0;
+  std::map<std::size_t, Far> begun_;  ///< by their numbers
   double busy_ = 0;
   std::exception_ptr trouble_;
 };
@@ -150,7 +177,8 @@ std::vector<std::vector<std::size_t>> Nonlinear::chains() const {
   return {up};
 }
 
-SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const SweepSettings& settings) {
+SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const SweepSettings& settings,
+                       const std::function<void(const Underway&)>& far) {
   SweepEnd end;
   end.workers = settings.threads;
   end.count.cases = study.size();
@@ -158,7 +186,7 @@ SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const Swe
   const auto ended = [&] { return read_journals(folder, study.sweep.print, study.size()); };
   const std::vector<Row> before = ended();
   end.count.before = static_cast<std::size_t>(std::ranges::count_if(before, [](const Row& row) { return !lacked_memory(row); }));
-  ChainWorkers(study, *journal, before).work(settings, end.count);
+  ChainWorkers(study, *journal, before).work(settings, far, end.count);
   end.rows = ended();
   end.whole = end.rows.size() == study.size();
   if (end.whole) write_results(study, folder, end.rows);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,19 @@ struct Nonlinear {
 /// @throws SceneError  naming file, line, key, value and remedy
 Nonlinear read_nonlinear(const std::filesystem::path&, const Overrides& set = {});
 
+/// The values that are being followed.
+struct Underway {
+  std::size_t values = 0;
+  double share = 0;  ///< of these, the shares that are done, summed
+  std::string at;    ///< of the last of these: "return 37 of 200"
+};
+
 /// Follows what has not been followed yet, and leaves in `folder` section.csv, values.csv and lyapunov.csv beside what a sweep leaves:
 /// the same to the bit whatever the number of workers and however often it was killed.
+/// @param far  told how far it is, before the settings' progress is
 /// @throws as run_sweep
-SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, const SweepSettings&);
+SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, const SweepSettings&,
+                       const std::function<void(const Underway&)>& far = {});
 
 /// A value that was followed, as it is told.
 struct FollowedValue {

@@ -147,7 +147,10 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
       root.at("lyapunov").fail(error.what());
     }
   }
-  out.sweep = cases_of(file, cases, path, set, recording(out.question));
+  Overrides common = recording(out.question);
+  for (const auto& limit : step_limit(root)) common.push_back(limit);
+  out.sweep = cases_of(file, cases, path, set, common);
+  if (root.has("limit")) out.sweep.limits.seconds = root.at("limit").quantity(dimension::time, rule::positive);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "framework/study/nonlinear/orbit.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <new>
 
@@ -98,8 +99,8 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
 class Following {
  public:
   Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
-            const std::function<bool()>& go_on, OrbitEnd& out)
-      : question_(question), go_on_(go_on), out_(out), scene_(recording_scene(source, set)) {
+            const OrbitLimits& limits, OrbitEnd& out)
+      : question_(question), limits_(limits), out_(out), scene_(recording_scene(source, set)) {
     const auto time = [&](const std::string& text) { return time_of(source, set, text); };
     const bool by_time = question.section && !question.section->every.empty();
     if (by_time) out.orbit.interval = time(question.section->every);
@@ -108,7 +109,7 @@ class Following {
     const double from = clock_goes_on ? before->end_t : 0;
     scene_.run.until += from;
     if (by_time) scene_.run.until = from + out.orbit.interval * (question.section->transient + question.section->returns);
-    last_ = scene_.run.until;
+    first_ = from, last_ = scene_.run.until;
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared: all by one method, as accurate as at the start
@@ -118,6 +119,7 @@ class Following {
   void follow() {
     Integrator integrator(model_.system, model_.scheme, start_);
     if (!integrator.failure().empty()) throw OrbitTrouble{"failed", integrator.failure()};
+    integrator_ = &integrator, begin_ = work_clock::now();
     try {
       if (question_.section) returns(integrator);
       if (question_.lyapunov) exponents(integrator);
@@ -132,6 +134,31 @@ class Following {
   }
 
  private:
+  using work_clock = std::chrono::steady_clock;
+
+  /// Whether to go on; tells how far the value is. @throws OrbitTrouble  it has had its time
+  bool heed() const {
+    const std::string at = place();
+    const double seconds = std::chrono::duration<double>(work_clock::now() - begin_).count();
+    if (limits_.seconds > 0 && seconds > limits_.seconds)
+      throw OrbitTrouble{"over its limit", "stopped after " + number_text(seconds, 3) + " s of computing, at " + at};
+    return !limits_.go_on || limits_.go_on(share(), at);
+  }
+  std::string place() const {
+    if (neighbours_begin_) return "t = " + number_text(integrator_->state().t, 6) + " s with neighbours";
+    return "return " + std::to_string(came_) + " of " + std::to_string(all_returns());
+  }
+  int all_returns() const { return question_.section ? question_.section->transient + question_.section->returns : 0; }
+  /// Of the work, if a second of the motion costs as much everywhere, and as much again for each neighbour.
+  double share() const {
+    const double t = integrator_->state().t, alone = question_.section ? last_ - first_ : 0;
+    const double beside = question_.lyapunov ? times_.whole() * (1 + question_.lyapunov->exponents) : 0;
+    const double with_neighbours = neighbours_begin_ ? std::min(1.0, (t - *neighbours_begin_) / times_.whole()) : 0;
+    const double by_count = static_cast<double>(came_) / std::max(1, all_returns());
+    const double of_section = neighbours_begin_ ? 1 : std::max(by_count, std::min(1.0, (t - first_) / alone));
+    return (alone * of_section + beside * with_neighbours) / (alone + beside);
+  }
+
   void count(const Integrator& integrator) {
     out_.steps = integrator.counts().steps;
     out_.impacts = static_cast<long>(integrator.impacts().size());
@@ -152,6 +179,7 @@ class Following {
       } else {
         go_to(integrator, from + k * out_.orbit.interval, go_on_);
       }
+      came_ = k;
       if (k <= section.transient) begin = integrator.state().t;
       if (k <= section.transient) continue;
       out_.orbit.t.push_back(integrator.state().t);
@@ -173,17 +201,23 @@ class Following {
                           .transient = times_.transient,
                           .intervals = times_.intervals,
                           .distance = question_.lyapunov->distance};
+    neighbours_begin_ = integrator.state().t;
     lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
   }
 
   const OrbitQuestion& question_;
-  const std::function<bool()>& go_on_;
+  const OrbitLimits& limits_;
+  const std::function<bool()> go_on_ = [this] { return heed(); };
   OrbitEnd& out_;
   Scene scene_;
   Model model_;
   State start_, sampled_;
-  double last_ = 0;  ///< by which returns must have come [s]
+  double first_ = 0, last_ = 0;  ///< between which returns must come [s]
   LyapunovTimes times_;
+  const Integrator* integrator_ = nullptr;
+  work_clock::time_point begin_;
+  int came_ = 0;                            ///< returns, those that are not recorded too
+  std::optional<double> neighbours_begin_;  ///< [s]; none: they do not go yet
 };
 
 }  // namespace
@@ -216,10 +250,10 @@ Overrides recording(const OrbitQuestion& question) {
 }
 
 OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
-                      const std::function<bool()>& go_on) {
+                      const OrbitLimits& limits) {
   OrbitEnd out;
   try {
-    Following(source, set, question, before, bodies, go_on, out).follow();
+    Following(source, set, question, before, bodies, limits, out).follow();
     if (out.status.empty()) out.status = status_text(Status::finished);
   } catch (const OrbitTrouble& trouble) {
     out.status = trouble.status, out.reason = trouble.reason;

@@ -76,7 +76,7 @@ struct Orbit {
 
 /// How following an orbit ended.
 struct OrbitEnd {
-  std::string status, reason;  ///< as of a case
+  std::string status, reason;  ///< as of a case; "too few returns"
   Orbit orbit;
   std::vector<std::string> units;  ///< of the signals recorded
   long steps = 0, impacts = 0;
@@ -91,10 +91,15 @@ struct LyapunovTimes {
 /// @throws std::invalid_argument  `over` is less than `every`
 LyapunovTimes lyapunov_times(const CaseSource&, const Overrides&, const LyapunovQuestion&);
 
+/// What one value is followed within.
+struct OrbitLimits {
+  double seconds = 0;  ///< of computing; 0: none
+  /// Told now and then which share of the value is done, and in words what is; false interrupts.
+  std::function<bool(double share, const std::string& at)> go_on = {};
+};
+
 /// Follows one value of the parameter, from the scene's start or from where another has ended. Never throws but for want of memory.
-/// @param go_on  asked now and then; false interrupts
-OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, BodyStore&,
-                      const std::function<bool()>& go_on);
+OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, BodyStore&, const OrbitLimits&);
 
 /// The least number of returns after which all signals come again within `tolerance`, next to the largest magnitude of each; 0: none up to
 /// half of the returns.

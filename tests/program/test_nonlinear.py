@@ -1,0 +1,92 @@
+"""What `pintle nonlinear` says while it goes on, and of values that fell short.
+
+usage: test_nonlinear.py PINTLE"""
+
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+pintle = os.path.realpath(sys.argv.pop(1))
+lorenz = """
+parameters: {sigma: 10, rho: 28, beta: 8/3}
+bodies: {plate: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}
+joints: {held: {weld: [ground, plate]}}
+states:
+  X: {rate: "sigma*(Y - X)/(1 s)", start: 1}
+  Y: {rate: "(X*(rho - Z) - Y)/(1 s)", start: 1}
+  Z: {rate: "(X*Y - beta*Z)/(1 s)", start: 20}
+run: {until: 10 s, method: dopri5}
+"""
+
+
+class Nonlinear(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = Path(place.name)
+        (self.place / "lorenz.yaml").write_text(lorenz)
+
+    def study(self, text):
+        (self.place / "study.yaml").write_text("scene: lorenz.yaml\n" + text)
+        return [pintle, "nonlinear", "study.yaml", "--threads", "1"]
+
+    def end_of(self, text, *options):
+        return subprocess.run([*self.study(text), *options], cwd=self.place, capture_output=True, text=True)
+
+    def test_too_few_returns_are_told_and_kept(self):
+        for k, (when, options) in enumerate((("Z > 1000", ()), ("Z > rho - 1", ()), ("Z > rho - 1", ("--json",)), ("Z > rho - 1", ("-q",)))):
+            done = self.end_of(f"section: {{when: {when}, record: X, transient: 0, returns: 1000}}\n", "--out", f"out{k}", *options)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertRegex(done.stderr, "too few returns: [0-9]+ of 1000 within run.until")
+            rows = (self.place / f"out{k}" / "section.csv").read_text().splitlines()
+            self.assertEqual(len(rows) > 1, "rho" in when)
+
+    def test_some_values_that_fell_short_are_a_warning(self):
+        done = self.end_of("section: {when: Z > 20, record: X, transient: 0, returns: 5}\nover: {rho: [2, 28]}\ndirection: from start\n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("warning: 1 of 2 values could not be followed to the end; the first: rho = 2: too few returns", done.stderr)
+
+    def test_dots_of_the_diagram_are_whole(self):
+        for text in ("section: {when: Z > 20, record: X, transient: 0, returns: 5}\nover: {rho: [26, 27, 28]}\n",
+                     "section: {when: Z > 20, record: [X, Y], transient: 0, returns: 9}\n",
+                     "section: {every: 1 s, record: 0*X, transient: 0, returns: 2}\nover: {rho: [28]}\n",
+                     "section: {when: Z > 1000, record: X, transient: 0, returns: 5}\n"):
+            self.end_of(text, "--out", f"diagram{hash(text)}")
+            picture = (self.place / f"diagram{hash(text)}" / "section.svg").read_text()
+            self.assertNotRegex(picture, "nan|inf")
+            clip = re.search("<clipPath.*?<rect x='(.*?)' y='(.*?)' width='(.*?)' height='(.*?)'", picture)
+            x, y, width, height = map(float, clip.groups())
+            dots = [tuple(map(float, dot)) for dot in re.findall("<circle cx='(.*?)' cy='(.*?)' r='(.*?)'", picture)]
+            self.assertEqual(len(dots) > 0, "1000" not in text)
+            for cx, cy, r in dots:
+                self.assertTrue(x <= cx - r and cx + r <= x + width and y <= cy - r and cy + r <= y + height, (text, cx, cy))
+
+    def test_who_waits_is_told_how_far_a_value_is(self):
+        ours, its = pty.openpty()
+        process = subprocess.Popen(self.study("section: {every: 100 s, record: X, transient: 0, returns: 1000000}\n"),
+                                   cwd=self.place, stdout=subprocess.DEVNULL, stderr=its)
+        os.close(its)
+        said = b""
+        try:
+            while b"0 of 1 values, the next at return " not in said or b" left" not in said:
+                said += os.read(ours, 4096)
+            process.send_signal(signal.SIGINT)
+        finally:
+            if not said:
+                process.kill()
+        try:
+            while more := os.read(ours, 4096):
+                said += more
+        except OSError:  # the other end is closed
+            pass
+        self.assertEqual(process.wait(), 6)
+
+
+if __name__ == "__main__":
+    unittest.main()

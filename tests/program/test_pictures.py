@@ -1,0 +1,137 @@
+"""Pictures hold what they draw, and unknown words of plots, pictures and films end with code 2 and the words that there are.
+
+usage: test_pictures.py PINTLE"""
+
+import math
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+pintle = os.path.realpath(sys.argv.pop(1))
+has_pictures = (Path(pintle).parent / "pintle-picture").exists()
+load_colour = (128, 46, 158)
+pushed = """
+bodies: {{bar: {{rigid: {{mass: 1000 kg, inertia: 1000}}, points: {{O: [-1, 0], end: [1, 0.2]}}}}}}
+joints: {{hinge: {{revolute: [ground, bar.O]}}}}
+forces: {{push: {{force: [{x:.6f}, {y:.6f}], at: bar.end}}}}
+run: {{until: 1 ms}}
+output: {{frames: 2}}
+"""
+gears = """
+bodies:
+  sun: {rigid: {mass: 1 kg, inertia: 0.01}, points: {O: [0, 0]}}
+  wheel: {rigid: {mass: 1 kg, inertia: 0.01}, points: {O: [0, 0]}, pose: {at: [0.3, 0]}}
+joints:
+  a: {revolute: [ground, sun.O]}
+  b: {revolute: [ground.Q, wheel.O]}
+  mesh: {gear: [sun, wheel], radii: [0.1, 0.2]}
+ground: {points: {Q: [0.3, 0]}}
+run: {until: 1 ms}
+output: {frames: 2}
+"""
+
+
+def pixels(file):
+    """Rows of (red, green, blue) of a PNG of 8 bits a colour."""
+    data, at, packed = file.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, _, colours = struct.unpack(">IIBB", body[:10])
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    step = {2: 3, 6: 4}[colours]
+    raw, before, rows = zlib.decompress(packed), bytearray(width * step), []
+    for y in range(height):
+        begin = y * (width * step + 1)
+        method, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * step])
+        for i in range(len(row)):
+            left = row[i - step] if i >= step else 0
+            above, corner = before[i], before[i - step] if i >= step else 0
+            if method == 4:
+                guess = left + above - corner
+                near = min((abs(guess - left), 0, left), (abs(guess - above), 1, above), (abs(guess - corner), 2, corner))[2]
+            else:
+                near = (0, left, above, (left + above) // 2)[method]
+            row[i] = (row[i] + near) & 255
+        before = row
+        rows.append([tuple(row[i:i + 3]) for i in range(0, len(row), step)])
+    return rows
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = Path(place.name)
+
+    def say(self, *words):
+        return subprocess.run([pintle, *words], cwd=self.place, capture_output=True, text=True)
+
+    def run_of(self, scene, out):
+        (self.place / "scene.yaml").write_text(scene)
+        done = self.say("run", "scene.yaml", "-q", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_arrows_end_inside(self):
+        for k in range(8):
+            angle = math.pi * k / 4
+            self.run_of(pushed.format(x=math.cos(angle), y=math.sin(angle)), f"out{k}")
+            for size in ("300", "300x300", "400x220", "220x400"):
+                done = self.say("picture", f"out{k}", "a.png", "--size", size)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                rows = pixels(self.place / "a.png")
+                near = lambda p: max(abs(a - b) for a, b in zip(p, load_colour)) < 60
+                found = [(x, y) for y, row in enumerate(rows) for x, p in enumerate(row) if near(p)]
+                # Names stand above and scales below, over white; the arrow's own colour is there in words too: the foot is looked at beside.
+                self.assertTrue(found)
+                self.assertTrue(all(2 <= x < len(rows[0]) - 2 for x, _ in found), (k, size))
+                tip = self.length_of_arrow(found, len(rows))
+                self.assertGreater(tip, 12, (k, size))
+
+    @staticmethod
+    def length_of_arrow(found, height):
+        inside = [(x, y) for x, y in found if y < 0.75 * height]
+        return max(math.dist(a, b) for a in inside[::7] or [(0, 0)] for b in inside[::7] or [(0, 0)])
+
+    def test_unknown_columns(self):
+        self.run_of(pushed.format(x=1, y=0), "out")
+        for words, said in ((("bar.angel",), 'did you mean "bar.angle"?'), (("zzz",), "Known here: t, bar.x"), (("t", "--against", "br.x"), '"bar.x"')):
+            done = self.say("plot", "out", *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+        done = self.say("plot", "nowhere", "bar.x")  # a folder that is not there is no word
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no such folder", done.stderr)
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_unknown_words_and_endings(self):
+        self.run_of(gears, "out")
+        for command, file in (("picture", "a.png"), ("film", "a.mp4")):
+            for option in ("--around", "--field"):
+                self.assertEqual(self.say(command, "out", file, option, "zzz").returncode, 2)
+            done = self.say(command, "out", file, "--around", "zzz")
+            names = re.search("Known here: (.*)\\.", done.stderr).group(1).replace(" or ", ", ").split(", ")
+            self.assertIn("sun", names)
+            self.assertEqual(len(names), len(set(names)), names)
+        endings = {"picture": ("png",), "film": ("mp4", "webm", "gif")}
+        for command, own in endings.items():
+            done = self.say(command, "out", "a.jpg")
+            self.assertEqual(done.returncode, 2)
+            told = re.search("ends? in ([^;]*);", done.stderr).group(1)
+            self.assertEqual(set(re.findall("\\.(\\w+)", told)), set(own), done.stderr)
+            of_the_other = {"picture": "--fps", "film": "--frame"}[command]
+            self.assertNotIn(of_the_other, self.say(command, "out", "a.png", "--zzzzzzzz").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
