@@ -12,6 +12,7 @@ struct Curve {
   std::vector<double> x, y;
   bool dashed = false;
   bool points = false;  ///< points alone, no line through them
+  bool hollow = false;  ///< these as rings
 };
 
 /// A point with a ring around it and words beside it.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -57,6 +58,14 @@ std::string parameter_header(const Nonlinear& study) {
   return with_its_unit(study.sweep.cases.names[0], unit_of_parameter(study).value_or(""));
 }
 
+std::vector<double> parameter_numbers(const Nonlinear& study) {
+  const bool numbers = study.varies() && unit_of_parameter(study).has_value();
+  std::vector<double> out;
+  for (std::size_t k = 0; k < study.sweep.cases.size(); ++k)
+    out.push_back(numbers ? study.sweep.cases.quantity(k, 0)->value : static_cast<double>(k + 1));
+  return out;
+}
+
 std::vector<std::string> signal_headers(const Nonlinear& study, const std::vector<Row>& rows) {
   std::vector<std::string> out;
   if (!study.question.section) return out;
@@ -71,11 +80,12 @@ std::vector<std::string> signal_headers(const Nonlinear& study, const std::vecto
 
 std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Row>& rows) {
   const bool numbers = study.varies() && unit_of_parameter(study).has_value();
+  const std::vector<double> parameters = parameter_numbers(study);
   std::vector<FollowedValue> out;
   for (const Row& row : rows) {
     FollowedValue& value = out.emplace_back();
     const std::size_t k = study.case_of(row.number);
-    value.x = numbers ? study.sweep.cases.quantity(k, 0)->value : static_cast<double>(k + 1);
+    value.x = parameters[k];
     if (study.varies()) value.parameter = numbers ? number_field(value.x) : study.sweep.cases.values[k][0].value_or("");
     value.backwards = study.backwards(row.number);
     value.status = row.status, value.reason = row.reason;
@@ -95,6 +105,31 @@ std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
       out += head + std::to_string(k + 1) + "," + number_field(value.orbit.t[k]);
       for (const double x : value.orbit.signals[k]) out += "," + number_field(x);
       out += '\n';
+    }
+  }
+  return out;
+}
+
+std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+  const std::vector<FollowedValue> values = followed(study, rows);
+  std::size_t multipliers = 0;
+  for (const FollowedValue& value : values) multipliers = std::max(multipliers, value.orbit.cycle.re.size());
+  std::string out = heading_of_values(study) + "return";
+  for (const std::string& header : signal_headers(study, rows)) out += "," + csv_field(header);
+  out += ",period [s],least period,found from,stability";
+  for (std::size_t j = 1; j <= multipliers; ++j) out += ",modulus " + std::to_string(j) + ",argument " + std::to_string(j) + " [rad]";
+  out += '\n';
+  for (const FollowedValue& value : values) {
+    const Cycle& cycle = value.orbit.cycle;
+    if (!cycle.found()) continue;
+    std::string tail = "," + number_field(cycle.period) + "," + number_field(cycle.least) +
+                       (cycle.continued > 0 ? ",branch," : ",motion,") + stability_word(stability(cycle));
+    for (std::size_t j = 0; j < multipliers; ++j)
+      tail += j < cycle.re.size() ? "," + number_field(cycle.modulus(j)) + "," + number_field(cycle.argument(j)) : ",,";
+    for (std::size_t k = 0; k < cycle.signals.size(); ++k) {
+      out += fields_of(study, value) + std::to_string(k + 1);
+      for (const double x : cycle.signals[k]) out += "," + number_field(x);
+      out += tail + "\n";
     }
   }
   return out;
@@ -141,6 +176,14 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
     if (study.question.section) {
       one["returns"] = value.orbit.t.size(), one["period"] = value.period;
       one["impacts"] = value.orbit.impacts.count, one["grazing"] = value.orbit.impacts.grazing;
+    }
+    if (const Cycle& cycle = value.orbit.cycle; cycle.found()) {
+      Json multipliers = Json::array();
+      for (std::size_t j = 0; j < cycle.re.size(); ++j) multipliers.push_back({cycle.re[j], cycle.im[j]});
+      one["orbit"] = {{"period [s]", cycle.period},
+                      {"least period", cycle.least},
+                      {"stability", stability_word(stability(cycle))},
+                      {"multipliers", multipliers}};
     }
     for (const Exponent& e : value.orbit.exponents)
       one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});

@@ -10,6 +10,7 @@
 #include "framework/common/text.h"
 #include "framework/configuration/assemble.h"
 #include "framework/mechanism/trajectory.h"
+#include "framework/study/nonlinear/cycle.h"
 #include "framework/study/nonlinear/follower.h"
 #include "framework/study/nonlinear/lyapunov.h"
 
@@ -97,9 +98,9 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
 /// One value, from its scene to what it has come to.
 class Following {
  public:
-  Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
+  Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, double x, BodyStore& bodies,
             const std::function<bool()>& go_on, OrbitEnd& out)
-      : question_(question), go_on_(go_on), out_(out), scene_(recording_scene(source, set)) {
+      : question_(question), before_(before), x_(x), go_on_(go_on), out_(out), scene_(recording_scene(source, set)) {
     const auto time = [&](const std::string& text) { return time_of(source, set, text); };
     const bool by_time = question.section && !question.section->every.empty();
     if (by_time) out.orbit.interval = time(question.section->every);
@@ -109,6 +110,8 @@ class Following {
     scene_.run.until += from;
     if (by_time) scene_.run.until = from + out.orbit.interval * (question.section->transient + question.section->returns);
     last_ = scene_.run.until;
+    longest_ = by_time ? question.section->returns * out.orbit.interval : last_ - from;
+    if (question.cycle) scene_.run.until += longest_;
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared: all by one method, as accurate as at the start
@@ -119,19 +122,27 @@ class Following {
     Integrator integrator(model_.system, model_.scheme, start_);
     if (!integrator.failure().empty()) throw OrbitTrouble{"failed", integrator.failure()};
     try {
-      if (question_.section) returns(integrator);
+      if (question_.section) {
+        returns(integrator);
+        keep_end(integrator);  // at a return: what goes on from here has the same phase
+      }
+      if (question_.cycle && out_.status.empty()) cycle(integrator);
       if (question_.lyapunov) exponents(integrator);
     } catch (...) {
       count(integrator);
       throw;
     }
     count(integrator);
+    if (!question_.section) keep_end(integrator);
+  }
+
+ private:
+  void keep_end(const Integrator& integrator) {
     out_.orbit.end_t = integrator.state().t;
     const Eigen::VectorXd& y = integrator.state().y;
     out_.orbit.end.assign(y.data(), y.data() + model_.system.z_begin());
   }
 
- private:
   void count(const Integrator& integrator) {
     out_.steps = integrator.counts().steps;
     out_.impacts = static_cast<long>(integrator.impacts().size());
@@ -160,6 +171,40 @@ class Following {
     if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
   }
 
+  /// From the orbits of the values before; where that leads to none, from the motion.
+  void cycle(const Integrator& integrator) {
+    const CycleQuestion& asked = *question_.cycle;
+    const std::vector<double>& t = out_.orbit.t;
+    CycleRun run{.period = asked.period, .interval = out_.orbit.interval, .longest = longest_, .distance = asked.distance};
+    run.expected = t.back() - t[t.size() - 1 - static_cast<std::size_t>(asked.period)];
+    run.tolerance = asked.tolerance > 0 ? asked.tolerance : 100 * model_.scheme.tolerance;
+    Columns columns(model_, question_);
+    const auto read = [&](Integrator& at) { return columns.read(model_, at, sampled_); };
+    const Cycle* branch = before_ && before_->cycle.found() ? &before_->cycle : nullptr;
+    const auto find = [&](const CycleGuess& guess) { out_.orbit.cycle = find_cycle(model_, integrator.state(), guess, run, read, go_on_); };
+    std::string trouble;
+    if (branch && !tried([&] { find(continued_guess(model_.system, *branch, x_)); }, trouble)) branch = nullptr;
+    if (!branch && !tried([&] { find(integrator.state().y.head(model_.system.z_begin())); }, trouble)) {
+      out_.status = "no periodic orbit", out_.reason = trouble;
+      return;
+    }
+    Cycle& found = out_.orbit.cycle;
+    found.x = x_, found.continued = branch ? 1 : 0;
+    if (branch) found.point_before = branch->point, found.x_before = branch->x;
+  }
+
+  template <class F>
+  static bool tried(const F& f, std::string& trouble) {
+    try {
+      f();
+      return true;
+    } catch (const OrbitTrouble& what) {
+      if (what.status == status_text(Status::interrupted)) throw;
+      trouble = what.reason;
+      return false;
+    }
+  }
+
   void too_few(int came, double begin) {
     const SectionQuestion& section = *question_.section;
     out_.status = "too few returns";
@@ -177,12 +222,15 @@ class Following {
   }
 
   const OrbitQuestion& question_;
+  const Orbit* before_;
+  double x_;
   const std::function<bool()>& go_on_;
   OrbitEnd& out_;
   Scene scene_;
   Model model_;
   State start_, sampled_;
-  double last_ = 0;  ///< by which returns must have come [s]
+  double last_ = 0;     ///< by which returns must have come [s]
+  double longest_ = 0;  ///< that a periodic orbit is given [s]
   LyapunovTimes times_;
 };
 
@@ -215,11 +263,11 @@ Overrides recording(const OrbitQuestion& question) {
   return out;
 }
 
-OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
-                      const std::function<bool()>& go_on) {
+OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, double x,
+                      BodyStore& bodies, const std::function<bool()>& go_on) {
   OrbitEnd out;
   try {
-    Following(source, set, question, before, bodies, go_on, out).follow();
+    Following(source, set, question, before, x, bodies, go_on, out).follow();
     if (out.status.empty()) out.status = status_text(Status::finished);
   } catch (const OrbitTrouble& trouble) {
     out.status = trouble.status, out.reason = trouble.reason;

@@ -32,8 +32,16 @@ struct LyapunovQuestion {
   double distance = 1e-6;
 };
 
+/// Which periodic orbit is sought near the motion.
+struct CycleQuestion {
+  int period = 1;          ///< returns
+  double tolerance = 0;    ///< of a point that comes again, in coordinates over their scales; 0: a hundred times that of the run
+  double distance = 1e-6;  ///< of neighbours, likewise
+};
+
 struct OrbitQuestion {
   std::optional<SectionQuestion> section;
+  std::optional<CycleQuestion> cycle = {};
   std::optional<LyapunovQuestion> lyapunov;
 };
 
@@ -56,11 +64,34 @@ struct Exponent {
 };
 inline constexpr int exponent_batches = 20;
 
+/// A periodic orbit, stable or not.
+struct Cycle {
+  std::vector<double> point;                 ///< coordinates, speeds and states at a return; empty: none was found
+  double x = 0;                              ///< the parameter that it is of
+  std::vector<std::vector<double>> signals;  ///< at each of its returns, from the point on
+  double period = 0;                         ///< [s]
+  double least = 0;                          ///< returns after which it closes first
+  std::vector<double> re, im;                ///< of its Floquet multipliers, the greatest modulus first
+  double continued = 0;                      ///< 1: from the orbits of the values before; 0: from the motion
+  std::vector<double> point_before;          ///< of the value before, if continued from it, with its parameter
+  double x_before = 0;
+
+  bool found() const { return !point.empty(); }
+  double modulus(std::size_t j) const;
+  double argument(std::size_t j) const;  ///< [rad]
+};
+
+enum class OrbitStability { stable, neutral, unstable };
+/// Neutral: the greatest modulus is 1 as closely as differences tell. @pre it was found
+OrbitStability stability(const Cycle&);
+std::string stability_word(OrbitStability);
+
 /// What one value of the parameter has come to.
 struct Orbit {
   std::vector<double> t;                     ///< of each return recorded [s]
   std::vector<std::vector<double>> signals;  ///< of each
   ImpactFigures impacts;
+  Cycle cycle;
   std::vector<Exponent> exponents;
   std::vector<double> running_t;             ///< [s]
   std::vector<std::vector<double>> running;  ///< the exponents as they have come to by then
@@ -92,8 +123,9 @@ struct LyapunovTimes {
 LyapunovTimes lyapunov_times(const CaseSource&, const Overrides&, const LyapunovQuestion&);
 
 /// Follows one value of the parameter, from the scene's start or from where another has ended. Never throws but for want of memory.
+/// @param x      the parameter, along which periodic orbits are continued
 /// @param go_on  asked now and then; false interrupts
-OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, BodyStore&,
+OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, double x, BodyStore&,
                       const std::function<bool()>& go_on);
 
 /// The least number of returns after which all signals come again within `tolerance`, next to the largest magnitude of each; 0: none up to
