@@ -94,10 +94,15 @@ void print(const Nonlinear& study, const SweepEnd& end, const std::vector<Follow
   if (study.varies()) rows.emplace_back("values of", parameter_header(study));
   if (study.question.section) add_periods(study, values, rows);
   if (!study.varies() && !values.empty()) {
+    if (const double k = values[0].orbit.zero_one; !std::isnan(k)) rows.emplace_back("0-1 test", "K = " + number(k, 3));
     add_orbit(values[0].orbit.cycle, rows);
     add_exponents(values[0].orbit, rows);
     add_impacts(values[0].orbit.impacts, values[0].orbit.t.size(), rows);
   }
+  constexpr double nearer_to_one = 0.5;
+  const auto chaotic = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.zero_one > nearer_to_one; });
+  if (study.varies() && chaotic > 0)
+    rows.emplace_back("0-1 test", "K nearer to 1 than to 0 at " + counted(static_cast<std::size_t>(chaotic), "value"));
   if (study.varies() && study.question.cycle) add_branch(values, rows);
   const auto grazes = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.impacts.grazing > 0; });
   if (study.varies() && grazes > 0) rows.emplace_back("grazing", "at " + std::to_string(grazes) + " values: see values.csv");

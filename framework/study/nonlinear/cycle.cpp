@@ -30,7 +30,7 @@ constexpr double same_for_any_time = 1e-6;
 constexpr double singular = 1e-7;      // of the greatest pivot: orbits fill a family, of which the nearest is taken
 constexpr double closes_before = 100;  // times the tolerance
 constexpr double neutral_within = 1e-5;
-constexpr const char* none = "no periodic orbit";
+constexpr const char* no_orbit = "no periodic orbit";
 
 /// Angles of bodies to the turn nearest to 0: a crank that has turned once is where it was.
 void without_turns(const System& system, VectorXd& difference) {
@@ -56,7 +56,7 @@ class Shooting {
         neighbour_(model.system, model.scheme, near) {}
 
   Cycle find(const CycleGuess& guess, const std::function<std::vector<double>(Integrator&)>& read) {
-    if (guess.size() != scales_.size()) throw OrbitTrouble{none, "the scene has other coordinates than at the value before"};
+    if (guess.size() != scales_.size()) throw OrbitTrouble{no_orbit, "the scene has other coordinates than at the value before"};
     point_ = near_.y.head(scales_.size());
     VectorXd from_motion = guess - point_;
     without_turns(model_.system, from_motion);
@@ -78,7 +78,7 @@ class Shooting {
     start.t += later;
     start.y.head(point.size()) = point;
     auto out = std::make_unique<Integrator>(model_.system, model_.scheme, std::move(start));
-    if (!out->failure().empty()) throw OrbitTrouble{none, out->failure()};
+    if (!out->failure().empty()) throw OrbitTrouble{no_orbit, out->failure()};
     return out;
   }
 
@@ -95,7 +95,7 @@ class Shooting {
     if (run_.interval > 0) return go_to(integrator, begun + k * run_.interval, go_on_);
     while (go_to_return(integrator, begun + run_.longest, go_on_))
       if (integrator.state().t - begun > at_once * run_.expected) return;
-    throw OrbitTrouble{none, "no return within " + number_text(run_.longest, 6) + " s of a point tried"};
+    throw OrbitTrouble{no_orbit, "no return within " + number_text(run_.longest, 6) + " s of a point tried"};
   }
 
   void go_round(Integrator& integrator) const {
@@ -120,7 +120,7 @@ class Shooting {
       go_round(*integrator);
       same = (apart(head(*integrator), point_) - miss_).lpNorm<Eigen::Infinity>() < same_for_any_time;
     }
-    if (!same) throw OrbitTrouble{none, "laws or drivers depend on time: an orbit closes after their period; name it as section.every"};
+    if (!same) throw OrbitTrouble{no_orbit, "laws or drivers depend on time: an orbit closes after their period; name it as section.every"};
   }
 
   void newton() {
@@ -136,8 +136,8 @@ class Shooting {
       if (!step.allFinite() || !step_along(step)) break;
     }
     if (miss_.lpNorm<Eigen::Infinity>() <= run_.tolerance) return;
-    throw OrbitTrouble{none, "Newton's method comes no nearer than " + number_text(miss_.lpNorm<Eigen::Infinity>(), 3) +
-                                 " of the scales; take values closer together, a longer section.transient, or another orbit.period"};
+    throw OrbitTrouble{no_orbit, "Newton's method comes no nearer than " + number_text(miss_.lpNorm<Eigen::Infinity>(), 3) +
+                                     " of the scales; take values closer together, a longer section.transient, or another orbit.period"};
   }
 
   /// The whole step, or the first of its halves that comes nearer. @returns false: none does
@@ -161,7 +161,7 @@ class Shooting {
   VectorXd set_apart(const std::string& here, const VectorXd& by) {
     neighbour_.load(here);
     if (!neighbour_.change([&](State& state) { state.y.head(by.size()) += by.cwiseProduct(scales_); }))
-      throw OrbitTrouble{none, neighbour_.failure()};
+      throw OrbitTrouble{no_orbit, neighbour_.failure()};
     return apart(head(neighbour_), point_);
   }
 
@@ -181,7 +181,7 @@ class Shooting {
     const std::string here = integrator->save();
     Linearised out{directions_at(here), {}};
     const Index d = out.directions.cols();
-    if (d == 0) throw OrbitTrouble{none, "the mechanism has no freedom of its own: drivers hold all of it"};
+    if (d == 0) throw OrbitTrouble{no_orbit, "the mechanism has no freedom of its own: drivers hold all of it"};
     MatrixXd before(d, d), after(d, d);
     for (Index j = 0; j < d; ++j) {
       VectorXd began = VectorXd::Zero(scales_.size()), came = began;

@@ -13,6 +13,7 @@
 #include "framework/study/nonlinear/cycle.h"
 #include "framework/study/nonlinear/follower.h"
 #include "framework/study/nonlinear/lyapunov.h"
+#include "framework/study/nonlinear/zero_one.h"
 
 namespace pintle {
 
@@ -95,6 +96,14 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
   return out;
 }
 
+/// Of the first signal. What comes again within the section's tolerance is the same.
+double zero_one_of(const std::vector<std::vector<double>>& signals, double tolerance) {
+  std::vector<double> first;
+  double most = 0;
+  for (const std::vector<double>& one : signals) first.push_back(one[0]), most = std::max(most, std::abs(one[0]));
+  return zero_one_test(first, tolerance * most);
+}
+
 /// One value, from its scene to what it has come to.
 class Following {
  public:
@@ -168,6 +177,7 @@ class Following {
       out_.orbit.t.push_back(integrator.state().t);
       out_.orbit.signals.push_back(columns.read(model_, integrator, sampled_));
     }
+    out_.orbit.zero_one = zero_one_of(out_.orbit.signals, section.tolerance);
     if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,6 +92,7 @@ struct Orbit {
   std::vector<double> t;                     ///< of each return recorded [s]
   std::vector<std::vector<double>> signals;  ///< of each
   ImpactFigures impacts;
+  double zero_one = std::numeric_limits<double>::quiet_NaN();  ///< K of the first signal; NaN: too few returns
   Cycle cycle;
   std::vector<Exponent> exponents;
   std::vector<double> running_t;             ///< [s]
