@@ -1,9 +1,10 @@
-// pintle nonlinear: Poincaré sections, bifurcation diagrams, Lyapunov exponents.
+// pintle nonlinear: Poincaré sections, bifurcation diagrams, periodic orbits, Lyapunov exponents.
 #include "framework/study/nonlinear/nonlinear.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "app/options.h"
 #include "app/progress.h"
@@ -60,15 +61,49 @@ void add_impacts(const ImpactFigures& f, std::size_t returns, Rows& rows) {
   if (f.grazing > 0) rows.emplace_back("grazing", number(f.grazing) + " impacts slower than 5 % of the median");
 }
 
+std::string multiplier_text(const Cycle& cycle, std::size_t j) {
+  return number(cycle.re[j]) + (cycle.im[j] == 0 ? "" : (cycle.im[j] < 0 ? " - " : " + ") + number(std::abs(cycle.im[j])) + "i");
+}
+
+/// The periodic orbit of the only value.
+void add_orbit(const Cycle& cycle, Rows& rows) {
+  if (!cycle.found()) return;
+  constexpr std::size_t most_told = 8;
+  rows.emplace_back("orbit", stability_word(stability(cycle)) + ", period " + number(cycle.period) + " s");
+  if (cycle.least < static_cast<double>(cycle.signals.size())) rows.emplace_back("", "it closes after " + number(cycle.least) + " returns");
+  for (std::size_t j = 0; j < std::min(cycle.re.size(), most_told); ++j)
+    rows.emplace_back("multiplier " + std::to_string(j + 1), multiplier_text(cycle, j) + ", modulus " + number(cycle.modulus(j)));
+  if (cycle.re.size() > most_told) rows.emplace_back("", "and " + counted(cycle.re.size() - most_told, "smaller one") + ": orbits.csv");
+}
+
+/// One row for each stretch of values whose orbits are as stable, and one for each change between.
+void add_branch(const std::vector<FollowedValue>& values, Rows& rows) {
+  for (const OrbitStability one : {OrbitStability::stable, OrbitStability::neutral, OrbitStability::unstable}) {
+    const auto is_one = [&](const FollowedValue& v) { return v.orbit.cycle.found() && stability(v.orbit.cycle) == one; };
+    if (const auto n = std::ranges::count_if(values, is_one); n > 0)
+      rows.emplace_back(stability_word(one) + " orbits", "at " + counted(static_cast<std::size_t>(n), "value"));
+  }
+  for (const LossOfStability& loss : losses_of_stability(values))
+    rows.emplace_back(crossing_words(loss.through),
+                      "near " + number(loss.x) + ", between " + values[loss.before].parameter + " and " + values[loss.after].parameter);
+}
+
 void print(const Nonlinear& study, const SweepEnd& end, const std::vector<FollowedValue>& values, const fs::path& out) {
   std::cout << (study.sweep.study.title.empty() ? study.sweep.study.file : study.sweep.study.title) << "\n";
   Rows rows;
   if (study.varies()) rows.emplace_back("values of", parameter_header(study));
   if (study.question.section) add_periods(study, values, rows);
   if (!study.varies() && !values.empty()) {
+    if (const double k = values[0].orbit.zero_one; !std::isnan(k)) rows.emplace_back("0-1 test", "K = " + number(k, 3));
+    add_orbit(values[0].orbit.cycle, rows);
     add_exponents(values[0].orbit, rows);
     add_impacts(values[0].orbit.impacts, values[0].orbit.t.size(), rows);
   }
+  constexpr double nearer_to_one = 0.5;
+  const auto chaotic = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.zero_one > nearer_to_one; });
+  if (study.varies() && chaotic > 0)
+    rows.emplace_back("0-1 test", "K nearer to 1 than to 0 at " + counted(static_cast<std::size_t>(chaotic), "value"));
+  if (study.varies() && study.question.cycle) add_branch(values, rows);
   const auto grazes = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.impacts.grazing > 0; });
   if (study.varies() && grazes > 0) rows.emplace_back("grazing", "at " + std::to_string(grazes) + " values: see values.csv");
   const auto positive = std::ranges::count_if(values, [](const FollowedValue& v) {
@@ -83,16 +118,37 @@ void print(const Nonlinear& study, const SweepEnd& end, const std::vector<Follow
 
 Curve dots(const std::string& label) { return {.label = label, .x = {}, .y = {}, .dashed = false, .points = true}; }
 
+/// Periodic orbits over the returns, as `at` says where: full where they are stable.
+template <class F>
+void add_orbits(const std::vector<FollowedValue>& values, const F& at, Panel& panel) {
+  for (const bool stable : {true, false}) {
+    Curve curve = dots(stable ? "stable orbit" : "unstable orbit");
+    curve.hollow = !stable;
+    for (const FollowedValue& value : values) {
+      const Cycle& cycle = value.orbit.cycle;
+      if (!cycle.found() || (stability(cycle) == OrbitStability::unstable) == stable) continue;
+      for (std::size_t k = 0; k < cycle.signals.size(); ++k) {
+        const auto [x, y] = at(value, k, cycle.signals[k]);
+        curve.x.push_back(x), curve.y.push_back(y);
+      }
+    }
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+}
+
 /// Without a parameter: the second signal over the first, or the only one over the number of the return.
 Panel map_of_returns(const FollowedValue& value, const std::vector<std::string>& headers) {
   Panel panel{
       .title = "", .x_label = headers.size() > 1 ? headers[0] : "return", .y_label = headers[headers.size() > 1 ? 1 : 0], .curves = {}};
+  const auto at = [](const FollowedValue&, std::size_t k, const std::vector<double>& one) {
+    return std::pair(one.size() > 1 ? one[0] : static_cast<double>(k + 1), one.size() > 1 ? one[1] : one[0]);
+  };
   Curve& curve = panel.curves.emplace_back(dots(""));
   for (std::size_t k = 0; k < value.orbit.signals.size(); ++k) {
-    const std::vector<double>& one = value.orbit.signals[k];
-    curve.x.push_back(one.size() > 1 ? one[0] : static_cast<double>(k + 1));
-    curve.y.push_back(one.size() > 1 ? one[1] : one[0]);
+    const auto [x, y] = at(value, k, value.orbit.signals[k]);
+    curve.x.push_back(x), curve.y.push_back(y);
   }
+  add_orbits({value}, at, panel);
   return panel;
 }
 
@@ -106,6 +162,9 @@ Panel diagram(const Nonlinear& study, const std::vector<FollowedValue>& values, 
         for (const std::vector<double>& one : value.orbit.signals) curve.x.push_back(value.x), curve.y.push_back(one[signal]);
     if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
   }
+  add_orbits(
+      values, [signal](const FollowedValue& value, std::size_t, const std::vector<double>& one) { return std::pair(value.x, one[signal]); },
+      panel);
   return panel;
 }
 

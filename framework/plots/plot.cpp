@@ -117,6 +117,8 @@ std::string stroke_of(const Panel& p, std::size_t curve) {
   return printed("stroke='%s'%s", colour_of(curve), p.curves[curve].dashed ? " stroke-dasharray='6 4'" : "");
 }
 
+const char* paint_of(const Curve& points) { return points.hollow ? "fill='none' stroke-width='1' stroke" : "fill"; }
+
 std::string polyline(const std::vector<double>& x, const std::vector<double>& y, const std::string& stroke) {
   std::vector<bool> keep(x.size(), false);
   keep.front() = keep.back() = true;
@@ -139,7 +141,7 @@ std::string curve_of(const Panel& p, const Axes& axes, std::size_t k) {
   if (!x.empty() && !c.points) s += polyline(x, y, stroke_of(p, k));
   const double radius = x.size() > 400 ? 1 : 2.5;  // smaller if there are many, so that they do not merge
   for (std::size_t i = 0; (p.log || c.points) && i < x.size(); ++i)
-    s += printed("<circle cx='%.1f' cy='%.1f' r='%g' fill='%s'/>\n", x[i], y[i], radius, colour_of(k));
+    s += printed("<circle cx='%.1f' cy='%.1f' r='%g' %s='%s'/>\n", x[i], y[i], radius, paint_of(c), colour_of(k));
   return s;
 }
 
@@ -150,7 +152,7 @@ std::string legend(const Panel& p, const Axes& axes) {
   for (std::size_t k = 0; k < p.curves.size(); ++k) {
     const Curve& c = p.curves[k];
     if (c.label.empty()) continue;
-    s += c.points ? printed("<circle cx='%.1f' cy='%.1f' r='3' fill='%s'/>\n", x + 10, y - 18, colour_of(k))
+    s += c.points ? printed("<circle cx='%.1f' cy='%.1f' r='3' %s='%s'/>\n", x + 10, y - 18, paint_of(c), colour_of(k))
                   : printed("<path d='M%.1f %.1fh20' %s stroke-width='2'/>\n", x, y - 18, stroke_of(p, k).c_str());
     s += text(x + 25, y - 14, c.label, "start");
     x += 41 + 6.3 * static_cast<double>(c.label.size());

@@ -12,6 +12,7 @@ struct Curve {
   std::vector<double> x, y;
   bool dashed = false;
   bool points = false;  ///< only points, without a line through them
+  bool hollow = false;  ///< these as rings
 };
 
 /// A point with a ring around it and a label.

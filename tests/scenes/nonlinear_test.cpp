@@ -2,38 +2,15 @@
 #include "framework/study/nonlinear/nonlinear.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/scenes/sweep_folder.h"
+#include "tests/scenes/nonlinear_study.h"
 
 namespace pintle {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-/// Sets a study up in a folder and follows it.
-struct Followed {
-  Nonlinear study;
-  std::vector<Row> rows;
-  std::vector<FollowedValue> values;
-};
-
-Followed follow_study(const SweepFolder& folder, const std::string& scene, const std::string& study, int threads = 1) {
-  folder.write("scene.yaml", scene);
-  folder.write("study.yaml", "scene: scene.yaml\n" + study);
-  Followed out;
-  out.study = read_nonlinear(folder / "study.yaml");
-  SweepSettings settings;
-  settings.threads = threads;
-  out.rows = run_nonlinear(out.study, folder / "out", settings).rows;
-  out.values = followed(out.study, out.rows);
-  for (const FollowedValue& value : out.values) EXPECT_EQ(value.status, "finished") << value.reason;
-  return out;
-}
 
 // E. N. Lorenz (1963), by states of the scene's own.
 const char* const lorenz =
@@ -59,46 +36,8 @@ TEST(Nonlinear, LorenzHasItsExponentsAndTheirSumIsTheDivergence) {
   EXPECT_NEAR(found[1].value, 0, 4 * found[1].error + 0.01);
 }
 
-/// A ball on a heavy table that goes as A sin(omega t), driven by gamma = A omega^2/g: the exact map, once a period. The orbit that
-/// hits once a period has, at its impacts, gamma cos(phi) = pi (1 - e)/(1 + e), and the multipliers of its return have the sum
-/// 1 + e^2 - (1 + e)^2 gamma sin(phi) and the product e^2. So it is born at gamma = pi (1 - e)/(1 + e) and doubles where
-/// gamma sin(phi) = 2 (1 + e^2)/(1 + e)^2.
-struct Table {
-  double e = 0.5, omega = 100, g = 9.81;
-  double birth() const { return pi * (1 - e) / (1 + e); }
-  double doubling() const { return std::hypot(birth(), 2 * (1 + e * e) / ((1 + e) * (1 + e))); }
-  double phase(double gamma) const { return std::acos(birth() / gamma); }
-  double sum(double gamma) const { return 1 + e * e - (1 + e) * (1 + e) * gamma * std::sin(phase(gamma)); }
-  /// Half a flight after an impact, at the apex, `off` times as high above the table's height at impacts as on the orbit.
-  std::string scene(double gamma, double off) const {
-    const double period = 2 * pi / omega, amplitude = gamma * g / (omega * omega), launch = g * period / 2;
-    const double apex = 0.01 + amplitude * std::sin(phase(gamma)) + off * launch * launch / (2 * g);
-    return "parameters: {omega: 100 rad/s, gamma: " + std::to_string(gamma) +
-           ", A: gamma*9.81 m/s^2/omega^2, phase: " + std::to_string(phase(gamma)) +
-           "}\ngravity: [0, -9.81]\n"
-           "ground: {points: {below: {at: [0, -1 m], angle: 90 deg}}}\n"
-           "bodies:\n"
-           "  table: {rigid: {mass: 100 kg, inertia: 1}, profiles: {top: {path: [[-1, 0], [1, 0]], material: right}}}\n"
-           "  ball: {rigid: {mass: 0.01 kg, inertia: 1e-6}, profiles: {rim: {disc: [0, 0], radius: 10 mm}}}\n"
-           "joints:\n"
-           "  guide: {prismatic: [ground.below, table], angle: -90 deg}\n"
-           "  tube: {prismatic: [ground.below, ball], angle: -90 deg}\n"
-           "drivers: {shaker: {distance: [ground.below, table], law: \"1 m + A*sin(omega*t + phase + pi)\"}}\n"
-           "contacts: {hit: {between: [ball.rim, table.top], model: impact, restitution: 0.5}}\n"
-           "start: {ball: {y: " +
-           std::to_string(apex) +
-           " m, vy: 0}}\n"
-           "run: {until: 10 s, tolerance: 1e-10, method: dopri5}\n";
-  }
-};
-
-std::string once_a_period(int transient, int returns) {
-  return "section: {every: 2*pi/omega, record: {height: ball.y, speed: ball.vy}, transient: " + std::to_string(transient) +
-         ", returns: " + std::to_string(returns) + ", tolerance: 1e-3}\n";
-}
-
 TEST(Nonlinear, ABouncingBallDoublesItsPeriodAtTheClosedForm) {
-  const Table table;
+  const VibratingTable table;
   for (const double part : {0.98, 1.02}) {
     const SweepFolder folder;
     const Followed done = follow_study(folder, table.scene(part * table.doubling(), 1.001), once_a_period(300, 16));
@@ -110,7 +49,7 @@ TEST(Nonlinear, ABouncingBallDoublesItsPeriodAtTheClosedForm) {
 
 // Deviations d of a return obey d'' - sum d' + product d = 0.
 TEST(Nonlinear, ReturnsOfABouncingBallConvergeByTheMultipliersOfTheClosedForm) {
-  const Table table;
+  const VibratingTable table;
   const double gamma = 1.2;
   const SweepFolder folder;
   const Followed done = follow_study(folder, table.scene(gamma, 1.0005), once_a_period(0, 40));
@@ -126,7 +65,7 @@ TEST(Nonlinear, ReturnsOfABouncingBallConvergeByTheMultipliersOfTheClosedForm) {
 
 // Both multipliers have the size e where they are complex, so both exponents are log(e) a period: neighbours pass impacts.
 TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
-  const Table table;
+  const VibratingTable table;
   const double period = 2 * pi / table.omega;
   const SweepFolder folder;
   const Followed done = follow_study(folder, table.scene(1.2, 1.0),
@@ -139,7 +78,7 @@ TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
 
 // Near the doubling they are real and apart, and neighbours take the time that is not counted to turn to the slower one.
 TEST(Nonlinear, ExponentsOfABouncingBallAreThoseOfItsRealMultipliers) {
-  const Table table;
+  const VibratingTable table;
   const double period = 2 * pi / table.omega, gamma = 1.5, sum = table.sum(gamma), root = std::sqrt(sum * sum - 4 * table.e * table.e);
   const double slow = (sum - root) / 2, fast = (sum + root) / 2;  // both below 0
   const SweepFolder folder;
@@ -183,8 +122,8 @@ TEST(Nonlinear, AnImpactOscillatorsMultipliersHaveTheProductOfTheClosedForm) {
 }
 
 TEST(Nonlinear, AnInterruptedStudyGoesOnToTheSameFilesToTheByte) {
-  const Table table;
-  const std::string study = once_a_period(5, 6) + "over: {gamma: [1.2, 1.3, 1.4]}\ndirection: both\n";
+  const VibratingTable table;
+  const std::string study = once_a_period(5, 6) + "over: {gamma: [1.2, 1.3, 1.4]}\ndirection: both\norbit: {}\n";
   const SweepFolder whole, cut;
   follow_study(whole, table.scene(1.2, 1.0), study);
   cut.write("scene.yaml", table.scene(1.2, 1.0));
@@ -196,11 +135,11 @@ TEST(Nonlinear, AnInterruptedStudyGoesOnToTheSameFilesToTheByte) {
   std::size_t end = 0;
   for (int line = 0; line < 3; ++line) end = journal.find('\n', end) + 1;
   std::ofstream(cut / "out/journal-0.txt", std::ios::binary) << journal.substr(0, end + 40);
-  for (const char* name : {"section.csv", "values.csv"}) fs::remove(cut / "out" / name);
+  for (const char* name : {"section.csv", "values.csv", "orbits.csv"}) fs::remove(cut / "out" / name);
   const SweepEnd last = run_nonlinear(again, cut / "out", {});
   EXPECT_EQ(last.count.before, 2u);
   EXPECT_EQ(last.count.done, 4u);
-  for (const char* name : {"section.csv", "values.csv"}) {
+  for (const char* name : {"section.csv", "values.csv", "orbits.csv"}) {
     EXPECT_FALSE(contents(cut / "out" / name).empty()) << name;
     EXPECT_EQ(contents(cut / "out" / name), contents(whole / "out" / name)) << name;
   }
@@ -352,6 +291,9 @@ TEST(Nonlinear, WhatIsWrongIsNamedWithItsRemedy) {
            {"section: {every: 1 s, record: X}\nover: {rho: [1, 2], beta: [1]}", {"study.yaml:3", "over", "name one"}},
            {"section: {every: 1 s, record: X}\nover: {ro: [1, 2]}", {"study.yaml:3", "over", "rho"}},
            {"section: {every: 1 s, record: X}\nover: {rho: [1]}\ndirection: up", {"study.yaml:4", "direction", "forwards"}},
+           {"orbit: {period: 2}\nlyapunov: {every: 1 s, over: 2 s}", {"study.yaml:2", "orbit", "section", "add"}},
+           {"section: {every: 1 s, record: X, returns: 4}\norbit: {period: 4}", {"study.yaml:3", "orbit.period", "4", "record more"}},
+           {"section: {every: 1 s, record: X}\norbit: {periods: 4}", {"study.yaml:3", "periods", "period"}},
            {"lyapunov: {every: 1 s}", {"study.yaml:2", "over"}},
            {"lyapunov: {every: 1 s, over: 0.4 s}", {"study.yaml:2", "lyapunov", "over is 0.4 s", "every", "many"}},
            {"lyapunov: {every: 1 s, over: 2 s, distance: 2}", {"study.yaml:2", "lyapunov.distance", "0 and 1"}},

@@ -28,6 +28,7 @@ std::span<const KeyTable> study_tables() {
         {"section"},
         {"over"},
         {"direction", optional, "", {"forwards", "backwards", "both", "from start"}},
+        {"orbit"},
         {"lyapunov"},
         {"limit"},
         {"most steps"}}},
@@ -68,6 +69,7 @@ std::span<const KeyTable> study_tables() {
       {"study.sensitivity.monte carlo", {{"count", required, "1000"}, {"seed"}}},
       {"study.sensitivity.sobol", {{"count", required, "256"}, {"seed"}}},
       {"study.section", {{"every"}, {"when"}, {"record", required, "{height: ball.y}"}, {"transient"}, {"returns"}, {"tolerance"}}},
+      {"study.orbit", {{"period"}, {"tolerance"}, {"distance"}}},
       {"study.lyapunov", {{"exponents"}, {"every", required, "0.1 s"}, {"over", required, "1000 s"}, {"transient"}, {"distance"}}}};
   return all;
 }

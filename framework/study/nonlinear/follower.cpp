@@ -28,4 +28,13 @@ bool go_to_return(Integrator& integrator, double until, const std::function<bool
   return false;
 }
 
+Eigen::VectorXd phase_scales(const System& system, double time) {
+  Eigen::VectorXd out(system.z_begin());
+  const Eigen::Index n = system.n();
+  out.head(n) = system.scale;
+  out.segment(n, n) = system.scale / time;
+  for (Eigen::Index k = 0; k < system.n_x(); ++k) out[2 * n + k] = system.x_scale[k] > 0 ? system.x_scale[k] : system.length;
+  return out;
+}
+
 }  // namespace pintle

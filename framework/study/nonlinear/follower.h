@@ -18,4 +18,7 @@ void go_to(Integrator&, double t, const std::function<bool()>& go_on);
 /// @throws OrbitTrouble  likewise
 bool go_to_return(Integrator&, double until, const std::function<bool()>& go_on);
 
+/// What coordinates, speeds and states are measured by: coordinates by their own scales, speeds by these over a time.
+Eigen::VectorXd phase_scales(const System&, double time);
+
 }  // namespace pintle

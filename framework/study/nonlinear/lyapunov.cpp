@@ -20,16 +20,6 @@ using Eigen::VectorXd;
 constexpr int most_running = 200;   // running values that are kept
 constexpr double dependent = 1e-6;  // of the largest: a distance that is none of its own
 
-/// What coordinates, speeds and states are measured by: coordinates by their own scales, speeds by these over the interval.
-VectorXd scales_of(const System& system, double interval) {
-  VectorXd out(system.z_begin());
-  const Index n = system.n();
-  out.head(n) = system.scale;
-  out.segment(n, n) = system.scale / interval;
-  for (Index k = 0; k < system.n_x(); ++k) out[2 * n + k] = system.x_scale[k] > 0 ? system.x_scale[k] : system.length;
-  return out;
-}
-
 /// Gram and Schmidt's D = Q R, with a positive diagonal.
 void orthonormalise(const MatrixXd& D, MatrixXd& Q, MatrixXd& R) {
   const Index k = D.cols();
@@ -50,7 +40,7 @@ void orthonormalise(const MatrixXd& D, MatrixXd& Q, MatrixXd& R) {
 class Neighbours {
  public:
   Neighbours(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on)
-      : model_(model), main_(integrator), run_(run), go_on_(go_on), scales_(scales_of(model.system, run.interval)) {
+      : model_(model), main_(integrator), run_(run), go_on_(go_on), scales_(phase_scales(model.system, run.interval)) {
     const Index n = scales_.size();
     const auto k = static_cast<Index>(run.count);
     if (k > n) too_many(n);

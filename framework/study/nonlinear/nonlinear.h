@@ -9,7 +9,7 @@
 #include "framework/study/nonlinear/orbit.h"
 #include "framework/study/sweep/sweep.h"
 
-/// Poincaré sections, bifurcation diagrams and Lyapunov exponents of a scene: docs/nonlinear.md
+/// Poincaré sections, bifurcation diagrams, periodic orbits and Lyapunov exponents of a scene: docs/nonlinear.md
 namespace pintle {
 
 /// From where each value of the parameter is followed.
@@ -41,7 +41,7 @@ struct Underway {
   std::string at;    ///< of the last of these: "return 37 of 200"
 };
 
-/// Follows what has not been followed yet, and leaves in `folder` section.csv, values.csv and lyapunov.csv beside what a sweep leaves:
+/// Follows what has not been followed yet, and leaves in `folder` section.csv, values.csv, orbits.csv and lyapunov.csv beside what a sweep leaves:
 /// the same to the bit whatever the number of workers and however often it was killed.
 /// @param far  told how far it is, before the settings' progress is
 /// @throws as run_sweep
@@ -60,12 +60,27 @@ struct FollowedValue {
 /// @pre rows are of this study
 std::vector<FollowedValue> followed(const Nonlinear&, const std::vector<Row>& rows);
 std::string parameter_header(const Nonlinear&);
+/// Of each case the parameter as a number, or its place in the order where it is none.
+std::vector<double> parameter_numbers(const Nonlinear&);
 /// "height [m]"
 std::vector<std::string> signal_headers(const Nonlinear&, const std::vector<Row>& rows);
 
-/// A row for each return; for each value; for each value and time.
+/// Through what multipliers leave the unit circle.
+enum class Crossing { plus_one, minus_one, pair };
+struct LossOfStability {
+  Crossing through;
+  std::size_t before, after;  ///< of the values, next to each other along a branch
+  double x;                   ///< about where, by the straight line between their multipliers
+};
+/// Where along branches of periodic orbits the number of multipliers outside the unit circle changes.
+std::vector<LossOfStability> losses_of_stability(const std::vector<FollowedValue>&);
+/// "period doubling (multiplier -1)"
+std::string crossing_words(Crossing);
+
+/// A row for each return; for each value; for each return of a periodic orbit; for each value and time.
 std::string section_csv(const Nonlinear&, const std::vector<Row>& rows);
 std::string values_csv(const Nonlinear&, const std::vector<Row>& rows);
+std::string orbits_csv(const Nonlinear&, const std::vector<Row>& rows);
 std::string lyapunov_csv(const Nonlinear&, const std::vector<Row>& rows);
 /// What is told of each value, for programs.
 std::string nonlinear_json(const Nonlinear&, const std::vector<Row>& rows);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -57,6 +58,14 @@ std::string parameter_header(const Nonlinear& study) {
   return with_its_unit(study.sweep.cases.names[0], unit_of_parameter(study).value_or(""));
 }
 
+std::vector<double> parameter_numbers(const Nonlinear& study) {
+  const bool numbers = study.varies() && unit_of_parameter(study).has_value();
+  std::vector<double> out;
+  for (std::size_t k = 0; k < study.sweep.cases.size(); ++k)
+    out.push_back(numbers ? study.sweep.cases.quantity(k, 0)->value : static_cast<double>(k + 1));
+  return out;
+}
+
 std::vector<std::string> signal_headers(const Nonlinear& study, const std::vector<Row>& rows) {
   std::vector<std::string> out;
   if (!study.question.section) return out;
@@ -71,11 +80,12 @@ std::vector<std::string> signal_headers(const Nonlinear& study, const std::vecto
 
 std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Row>& rows) {
   const bool numbers = study.varies() && unit_of_parameter(study).has_value();
+  const std::vector<double> parameters = parameter_numbers(study);
   std::vector<FollowedValue> out;
   for (const Row& row : rows) {
     FollowedValue& value = out.emplace_back();
     const std::size_t k = study.case_of(row.number);
-    value.x = numbers ? study.sweep.cases.quantity(k, 0)->value : static_cast<double>(k + 1);
+    value.x = parameters[k];
     if (study.varies()) value.parameter = numbers ? number_field(value.x) : study.sweep.cases.values[k][0].value_or("");
     value.backwards = study.backwards(row.number);
     value.status = row.status, value.reason = row.reason;
@@ -100,12 +110,37 @@ std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   return out;
 }
 
+std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+  const std::vector<FollowedValue> values = followed(study, rows);
+  std::size_t multipliers = 0;
+  for (const FollowedValue& value : values) multipliers = std::max(multipliers, value.orbit.cycle.re.size());
+  std::string out = heading_of_values(study) + "return";
+  for (const std::string& header : signal_headers(study, rows)) out += "," + csv_field(header);
+  out += ",period [s],least period,found from,stability";
+  for (std::size_t j = 1; j <= multipliers; ++j) out += ",modulus " + std::to_string(j) + ",argument " + std::to_string(j) + " [rad]";
+  out += '\n';
+  for (const FollowedValue& value : values) {
+    const Cycle& cycle = value.orbit.cycle;
+    if (!cycle.found()) continue;
+    std::string tail = "," + number_field(cycle.period) + "," + number_field(cycle.least) +
+                       (cycle.continued > 0 ? ",branch," : ",motion,") + stability_word(stability(cycle));
+    for (std::size_t j = 0; j < multipliers; ++j)
+      tail += j < cycle.re.size() ? "," + number_field(cycle.modulus(j)) + "," + number_field(cycle.argument(j)) : ",,";
+    for (std::size_t k = 0; k < cycle.signals.size(); ++k) {
+      out += fields_of(study, value) + std::to_string(k + 1);
+      for (const double x : cycle.signals[k]) out += "," + number_field(x);
+      out += tail + "\n";
+    }
+  }
+  return out;
+}
+
 std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   const int exponents = study.question.lyapunov ? study.question.lyapunov->exponents : 0;
   std::string out = heading_of_values(study) + "status";
   if (study.question.section)
     out +=
-        ",returns,period,impacts a return,interval [s],least approach [m/s],median approach [m/s],greatest approach [m/s],grazing,"
+        ",returns,period,K,impacts a return,interval [s],least approach [m/s],median approach [m/s],greatest approach [m/s],grazing,"
         "share of time in contact";
   for (int j = 1; j <= exponents; ++j) out += ",exponent " + std::to_string(j) + " [1/s],standard error " + std::to_string(j) + " [1/s]";
   out += ",reason\n";
@@ -116,7 +151,7 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
       const ImpactFigures& f = orbit.impacts;
       const double n = static_cast<double>(orbit.t.size()), none = std::numeric_limits<double>::quiet_NaN();
       const auto known = [&](double x) { return f.count > 0 ? x : none; };
-      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period);
+      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period) + "," + number_field(orbit.zero_one);
       for (const double x : {n > 0 ? f.count / n : none, f.count > 1 ? f.interval : none, known(f.least_approach), known(f.median),
                              known(f.most_approach), n > 0 ? f.grazing : none, n > 0 ? f.contact_share : none})
         out += "," + number_field(x);
@@ -139,8 +174,16 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
     if (study.varies()) one[parameter_header(study)] = value.parameter, one["direction"] = value.backwards ? "backwards" : "forwards";
     one["status"] = value.status, one["reason"] = value.reason;
     if (study.question.section) {
-      one["returns"] = value.orbit.t.size(), one["period"] = value.period;
+      one["returns"] = value.orbit.t.size(), one["period"] = value.period, one["K"] = number(value.orbit.zero_one);
       one["impacts"] = value.orbit.impacts.count, one["grazing"] = value.orbit.impacts.grazing;
+    }
+    if (const Cycle& cycle = value.orbit.cycle; cycle.found()) {
+      Json multipliers = Json::array();
+      for (std::size_t j = 0; j < cycle.re.size(); ++j) multipliers.push_back({cycle.re[j], cycle.im[j]});
+      one["orbit"] = {{"period [s]", cycle.period},
+                      {"least period", cycle.least},
+                      {"stability", stability_word(stability(cycle))},
+                      {"multipliers", multipliers}};
     }
     for (const Exponent& e : value.orbit.exponents)
       one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});

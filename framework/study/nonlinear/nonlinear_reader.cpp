@@ -87,7 +87,8 @@ SectionQuestion read_section(const Node& node, const Trying& trying) {
   if (node.has("returns")) out.returns = read_count(node.at("returns"), 2);  // of fewer none can come again
   if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
   // One after another, so that what is wrong is named.
-  OrbitQuestion question{out, {}};
+  OrbitQuestion question;
+  question.section = out;
   const Overrides all = recording(question);
   const Node record = node.at("record");
   for (std::size_t k = 0; k < out.record.size(); ++k) {
@@ -105,6 +106,20 @@ LyapunovQuestion read_lyapunov(const Node& node, const Trying& trying) {
   out.every = read_time(node.at("every"), trying);
   out.over = read_time(node.at("over"), trying);
   if (node.has("transient")) out.transient = read_time(node.at("transient"), trying);
+  if (node.has("distance")) out.distance = node.at("distance").quantity(dimension::number, rule::inside_zero_one);
+  return out;
+}
+
+CycleQuestion read_cycle(const Node& node, const std::optional<SectionQuestion>& section) {
+  check_keys(node, "study.orbit");
+  if (!section)
+    node.fail("is a fixed point of a section's returns; add for example section: {every: 2*pi/omega, record: {height: ball.y}}");
+  CycleQuestion out;
+  if (node.has("period")) out.period = read_count(node.at("period"), 1);
+  if (out.period >= section->returns)
+    node.at("period").fail("is not less than section.returns, " + std::to_string(section->returns) +
+                           ", of which the time of an orbit is taken; record more");
+  if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
   if (node.has("distance")) out.distance = node.at("distance").quantity(dimension::number, rule::inside_zero_one);
   return out;
 }
@@ -139,6 +154,7 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
   if (root.has("section")) out.question.section = read_section(root.at("section"), trying);
+  if (root.has("orbit")) out.question.cycle = read_cycle(root.at("orbit"), out.question.section);
   if (root.has("lyapunov")) {
     out.question.lyapunov = read_lyapunov(root.at("lyapunov"), trying);
     try {

@@ -11,8 +11,10 @@
 #include "framework/common/text.h"
 #include "framework/configuration/assemble.h"
 #include "framework/mechanism/trajectory.h"
+#include "framework/study/nonlinear/cycle.h"
 #include "framework/study/nonlinear/follower.h"
 #include "framework/study/nonlinear/lyapunov.h"
+#include "framework/study/nonlinear/zero_one.h"
 
 namespace pintle {
 
@@ -95,12 +97,20 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
   return out;
 }
 
+/// Of the first signal. What comes again within the section's tolerance is the same.
+double zero_one_of(const std::vector<std::vector<double>>& signals, double tolerance) {
+  std::vector<double> first;
+  double most = 0;
+  for (const std::vector<double>& one : signals) first.push_back(one[0]), most = std::max(most, std::abs(one[0]));
+  return zero_one_test(first, tolerance * most);
+}
+
 /// One value, from its scene to what it has come to.
 class Following {
  public:
-  Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
+  Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, double x, BodyStore& bodies,
             const OrbitLimits& limits, OrbitEnd& out)
-      : question_(question), limits_(limits), out_(out), scene_(recording_scene(source, set)) {
+      : question_(question), before_(before), x_(x), limits_(limits), out_(out), scene_(recording_scene(source, set)) {
     const auto time = [&](const std::string& text) { return time_of(source, set, text); };
     const bool by_time = question.section && !question.section->every.empty();
     if (by_time) out.orbit.interval = time(question.section->every);
@@ -110,6 +120,8 @@ class Following {
     scene_.run.until += from;
     if (by_time) scene_.run.until = from + out.orbit.interval * (question.section->transient + question.section->returns);
     first_ = from, last_ = scene_.run.until;
+    longest_ = by_time ? question.section->returns * out.orbit.interval : last_ - from;
+    if (question.cycle) scene_.run.until += longest_;
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared: all by one method, as accurate as at the start
@@ -121,31 +133,41 @@ class Following {
     if (!integrator.failure().empty()) throw OrbitTrouble{"failed", integrator.failure()};
     integrator_ = &integrator, begin_ = work_clock::now();
     try {
-      if (question_.section) returns(integrator);
+      if (question_.section) {
+        returns(integrator);
+        keep_end(integrator);  // at a return: what goes on from here has the same phase
+      }
+      if (question_.cycle && out_.status.empty()) cycle(integrator);
       if (question_.lyapunov) exponents(integrator);
     } catch (...) {
       count(integrator);
       throw;
     }
     count(integrator);
+    if (!question_.section) keep_end(integrator);
+  }
+
+ private:
+  void keep_end(const Integrator& integrator) {
     out_.orbit.end_t = integrator.state().t;
     const Eigen::VectorXd& y = integrator.state().y;
     out_.orbit.end.assign(y.data(), y.data() + model_.system.z_begin());
   }
 
- private:
   using work_clock = std::chrono::steady_clock;
+  static constexpr const char* out_of_time = "over its limit";
 
   /// Whether to go on; tells how far the value is. @throws OrbitTrouble  it has had its time
   bool heed() const {
     const std::string at = place();
     const double seconds = std::chrono::duration<double>(work_clock::now() - begin_).count();
     if (limits_.seconds > 0 && seconds > limits_.seconds)
-      throw OrbitTrouble{"over its limit", "stopped after " + number_text(seconds, 3) + " s of computing, at " + at};
+      throw OrbitTrouble{out_of_time, "stopped after " + number_text(seconds, 3) + " s of computing, at " + at};
     return !limits_.go_on || limits_.go_on(share(), at);
   }
   std::string place() const {
     if (neighbours_begin_) return "t = " + number_text(integrator_->state().t, 6) + " s with neighbours";
+    if (cycle_begun_) return "the periodic orbit";
     return "return " + std::to_string(came_) + " of " + std::to_string(all_returns());
   }
   int all_returns() const { return question_.section ? question_.section->transient + question_.section->returns : 0; }
@@ -185,7 +207,43 @@ class Following {
       out_.orbit.t.push_back(integrator.state().t);
       out_.orbit.signals.push_back(columns.read(model_, integrator, sampled_));
     }
+    out_.orbit.zero_one = zero_one_of(out_.orbit.signals, section.tolerance);
     if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
+  }
+
+  /// From the orbits of the values before; where that leads to none, from the motion.
+  void cycle(const Integrator& integrator) {
+    const CycleQuestion& asked = *question_.cycle;
+    cycle_begun_ = true;
+    const std::vector<double>& t = out_.orbit.t;
+    CycleRun run{.period = asked.period, .interval = out_.orbit.interval, .longest = longest_, .distance = asked.distance};
+    run.expected = t.back() - t[t.size() - 1 - static_cast<std::size_t>(asked.period)];
+    run.tolerance = asked.tolerance > 0 ? asked.tolerance : 100 * model_.scheme.tolerance;
+    Columns columns(model_, question_);
+    const auto read = [&](Integrator& at) { return columns.read(model_, at, sampled_); };
+    const Cycle* branch = before_ && before_->cycle.found() ? &before_->cycle : nullptr;
+    const auto find = [&](const CycleGuess& guess) { out_.orbit.cycle = find_cycle(model_, integrator.state(), guess, run, read, go_on_); };
+    std::string trouble;
+    if (branch && !tried([&] { find(continued_guess(model_.system, *branch, x_)); }, trouble)) branch = nullptr;
+    if (!branch && !tried([&] { find(integrator.state().y.head(model_.system.z_begin())); }, trouble)) {
+      out_.status = "no periodic orbit", out_.reason = trouble;
+      return;
+    }
+    Cycle& found = out_.orbit.cycle;
+    found.x = x_, found.continued = branch ? 1 : 0;
+    if (branch) found.point_before = branch->point, found.x_before = branch->x;
+  }
+
+  template <class F>
+  static bool tried(const F& f, std::string& trouble) {
+    try {
+      f();
+      return true;
+    } catch (const OrbitTrouble& what) {
+      if (what.status == status_text(Status::interrupted) || what.status == out_of_time) throw;
+      trouble = what.reason;
+      return false;
+    }
   }
 
   void too_few(int came, double begin) {
@@ -206,16 +264,21 @@ class Following {
   }
 
   const OrbitQuestion& question_;
+  const Orbit* before_;
+  double x_;
   const OrbitLimits& limits_;
   const std::function<bool()> go_on_ = [this] { return heed(); };
   OrbitEnd& out_;
   Scene scene_;
   Model model_;
   State start_, sampled_;
-  double first_ = 0, last_ = 0;  ///< between which returns must come [s]
+  double first_ = 0;    ///< where the value begins [s]
+  double last_ = 0;     ///< by which returns must have come [s]
+  double longest_ = 0;  ///< that a periodic orbit is given [s]
   LyapunovTimes times_;
   const Integrator* integrator_ = nullptr;
   work_clock::time_point begin_;
+  bool cycle_begun_ = false;
   int came_ = 0;                            ///< returns, those that are not recorded too
   std::optional<double> neighbours_begin_;  ///< [s]; none: they do not go yet
 };
@@ -249,11 +312,11 @@ Overrides recording(const OrbitQuestion& question) {
   return out;
 }
 
-OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, BodyStore& bodies,
-                      const OrbitLimits& limits) {
+OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, double x,
+                      BodyStore& bodies, const OrbitLimits& limits) {
   OrbitEnd out;
   try {
-    Following(source, set, question, before, bodies, limits, out).follow();
+    Following(source, set, question, before, x, bodies, limits, out).follow();
     if (out.status.empty()) out.status = status_text(Status::finished);
   } catch (const OrbitTrouble& trouble) {
     out.status = trouble.status, out.reason = trouble.reason;

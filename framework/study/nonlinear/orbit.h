@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,16 @@ struct LyapunovQuestion {
   double distance = 1e-6;
 };
 
+/// Which periodic orbit is sought near the motion.
+struct CycleQuestion {
+  int period = 1;          ///< returns
+  double tolerance = 0;    ///< of a point that comes again, in coordinates over their scales; 0: a hundred times that of the run
+  double distance = 1e-6;  ///< of neighbours, likewise
+};
+
 struct OrbitQuestion {
   std::optional<SectionQuestion> section;
+  std::optional<CycleQuestion> cycle = {};
   std::optional<LyapunovQuestion> lyapunov;
 };
 
@@ -56,11 +65,35 @@ struct Exponent {
 };
 inline constexpr int exponent_batches = 20;
 
+/// A periodic orbit, stable or not.
+struct Cycle {
+  std::vector<double> point;                 ///< coordinates, speeds and states at a return; empty: none was found
+  double x = 0;                              ///< the parameter that it is of
+  std::vector<std::vector<double>> signals;  ///< at each of its returns, from the point on
+  double period = 0;                         ///< [s]
+  double least = 0;                          ///< returns after which it closes first
+  std::vector<double> re, im;                ///< of its Floquet multipliers, the greatest modulus first
+  double continued = 0;                      ///< 1: from the orbits of the values before; 0: from the motion
+  std::vector<double> point_before;          ///< of the value before, if continued from it, with its parameter
+  double x_before = 0;
+
+  bool found() const { return !point.empty(); }
+  double modulus(std::size_t j) const;
+  double argument(std::size_t j) const;  ///< [rad]
+};
+
+enum class OrbitStability { stable, neutral, unstable };
+/// Neutral: the greatest modulus is 1 as closely as differences tell. @pre it was found
+OrbitStability stability(const Cycle&);
+std::string stability_word(OrbitStability);
+
 /// What one value of the parameter has come to.
 struct Orbit {
   std::vector<double> t;                     ///< of each return recorded [s]
   std::vector<std::vector<double>> signals;  ///< of each
   ImpactFigures impacts;
+  double zero_one = std::numeric_limits<double>::quiet_NaN();  ///< K of the first signal; NaN: too few returns
+  Cycle cycle;
   std::vector<Exponent> exponents;
   std::vector<double> running_t;             ///< [s]
   std::vector<std::vector<double>> running;  ///< the exponents as they have come to by then
@@ -99,7 +132,9 @@ struct OrbitLimits {
 };
 
 /// Follows one value of the parameter, from the scene's start or from where another has ended. Never throws but for want of memory.
-OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, BodyStore&, const OrbitLimits&);
+/// @param x  the parameter, along which periodic orbits are continued
+OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, double x, BodyStore&,
+                      const OrbitLimits&);
 
 /// The least number of returns after which all signals come again within `tolerance`, next to the largest magnitude of each; 0: none up to
 /// half of the returns.

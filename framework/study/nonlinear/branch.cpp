@@ -1,0 +1,73 @@
+// Where periodic orbits lose their stability along a branch.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "framework/study/nonlinear/nonlinear.h"
+
+namespace pintle {
+
+namespace {
+
+std::size_t outside(const Cycle& cycle) {
+  std::size_t n = 0;
+  for (std::size_t j = 0; j < cycle.re.size(); ++j) n += cycle.modulus(j) > 1;
+  return n;
+}
+
+std::size_t real_outside(const Cycle& cycle, double sign) {
+  std::size_t n = 0;
+  for (std::size_t j = 0; j < cycle.re.size(); ++j) n += cycle.im[j] == 0 && sign * cycle.re[j] > 1;
+  return n;
+}
+
+/// The least distance of a multiplier from where it leaves: of reals from 1 or -1, of pairs from the circle.
+double nearest(const Cycle& cycle, Crossing through) {
+  std::optional<double> out;
+  for (std::size_t j = 0; j < cycle.re.size(); ++j) {
+    if ((cycle.im[j] != 0) != (through == Crossing::pair)) continue;
+    const double off = through == Crossing::pair       ? cycle.modulus(j) - 1
+                       : through == Crossing::plus_one ? cycle.re[j] - 1
+                                                       : -cycle.re[j] - 1;
+    if (!out || std::abs(off) < std::abs(*out)) out = off;
+  }
+  return out.value_or(0);
+}
+
+/// Reals that have gone out, or come in, tell by their sign; else a pair has.
+Crossing crossing(const Cycle& a, const Cycle& b) {
+  if (real_outside(a, -1) % 2 != real_outside(b, -1) % 2) return Crossing::minus_one;
+  if (real_outside(a, 1) % 2 != real_outside(b, 1) % 2) return Crossing::plus_one;
+  return Crossing::pair;
+}
+
+}  // namespace
+
+std::vector<LossOfStability> losses_of_stability(const std::vector<FollowedValue>& values) {
+  std::vector<std::size_t> order;
+  for (const bool backwards : {false, true}) {
+    std::vector<std::size_t> one;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (values[k].backwards == backwards) one.push_back(k);
+    if (backwards) std::ranges::reverse(one);
+    order.insert(order.end(), one.begin(), one.end());
+  }
+  std::vector<LossOfStability> out;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const FollowedValue &a = values[order[i - 1]], &b = values[order[i]];
+    const Cycle &from = a.orbit.cycle, &to = b.orbit.cycle;
+    if (!from.found() || to.continued == 0 || outside(from) == outside(to)) continue;
+    const Crossing through = crossing(from, to);
+    const double off = nearest(from, through), on = nearest(to, through);
+    out.push_back({through, order[i - 1], order[i], off == on ? b.x : a.x + (b.x - a.x) * off / (off - on)});
+  }
+  return out;
+}
+
+std::string crossing_words(Crossing through) {
+  if (through == Crossing::minus_one) return "period doubling (multiplier -1)";
+  if (through == Crossing::plus_one) return "a fold or a branching (multiplier +1)";
+  return "a pair of multipliers (Neimark-Sacker)";
+}
+
+}  // namespace pintle
