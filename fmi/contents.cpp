@@ -104,7 +104,8 @@ std::vector<FmuVariable> variables_of(const Scene& scene, const Model& model, co
   };
   const std::vector<std::string> given = chosen_inputs(scene, inputs);
   for (const SceneState& state : scene.states)
-    if (std::ranges::find(given, state.name) != given.end()) add({FmuVariable::input, state.name, written(state.unit), "", state.start});
+    if (std::ranges::find(given, state.name) != given.end())
+      add({FmuVariable::input, state.name, written(state.unit), state.name, state.start});
   for (const std::string& heading : trajectory_table(model).header) {
     const FmuVariable v = column_variable(heading);
     if (v.name != "t" && std::ranges::find(given, v.name) == given.end()) add(v);

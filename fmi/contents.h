@@ -21,7 +21,7 @@ struct FmuVariable {
     touching    ///< it has begun and not ended
   } kind = time;
   std::string name, unit = {};  ///< SI, as columns write it; empty: a number
-  std::string of = {};          ///< of a column its heading; of the last three the event or contact
+  std::string of = {};          ///< of a column its heading; of others the parameter, state, event or contact
   double start = 0;             ///< of parameters and inputs
   bool output = false;          ///< of columns
 };

@@ -32,7 +32,7 @@ Scene scene_of(const FmuContents& contents, const std::filesystem::path& resourc
   Scene scene = read_scene(resources / "scene" / contents.scene, set);
   for (std::size_t v = 0; v < contents.variables.size(); ++v)
     for (SceneState& state : scene.states)
-      if (contents.variables[v].kind == FmuVariable::input && contents.variables[v].name == state.name && settings.values[v])
+      if (contents.variables[v].kind == FmuVariable::input && contents.variables[v].of == state.name && settings.values[v])
         state.start = *settings.values[v];
   return scene;
 }
@@ -86,7 +86,7 @@ std::shared_ptr<const FmuPrepared> FmuInstance::prepared_for(const FmuSettings& 
   std::vector<std::size_t> place;
   for (const FmuVariable& v : contents_.variables)
     place.push_back(v.kind == FmuVariable::column      ? found(v.of, columns)
-                    : v.kind == FmuVariable::input     ? found(v.name, states)
+                    : v.kind == FmuVariable::input     ? found(v.of, states)
                     : v.kind == FmuVariable::parameter ? found(v.of, parameters)
                                                        : 0);
   return prepared_ = std::make_shared<const FmuPrepared>(

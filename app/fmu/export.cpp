@@ -21,6 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+#if defined(__aarch64__)
+constexpr const char* platform = "aarch64-linux";
+#else
+constexpr const char* platform = "x86_64-linux";
+#endif
+
 constexpr const char* licence =
     "The shared library of this unit is Pintle, free software under the GNU General Public License, version 3 or any later\n"
     "version: who gets the unit may have the program's source. The scene in resources/ is its author's own.\n";
@@ -87,7 +93,7 @@ ExportedFmu export_fmu(const FmuOrder& order) {
   const std::string library = read_file(program_beside_modules("libpintle_fmu.so"), std::numeric_limits<std::size_t>::max());
   ZipFile zip(out.file);
   zip.add("modelDescription.xml", model_description(out.contents, identifier));
-  zip.add("binaries/x86_64-linux/" + identifier + ".so", library, true);
+  zip.add("binaries/" + std::string(platform) + "/" + identifier + ".so", library, true);
   zip.add(std::string("resources/") + fmi::contents_file, fmi::text_of(out.contents));
   out.files = {out.contents.scene};
   for (const auto& [name, content] : files) {

@@ -633,6 +633,18 @@ TEST(Fmu, TheCommandSaysWhatItMadeAndWhatIsWrong) {
   EXPECT_EQ(chosen.unit().variable("mass").at("start"), "3");
   Instance instance(chosen.unit());
   EXPECT_TRUE(instance.start()) << instance.last_message();
+
+  std::string named_time = arm;  // a name that the unit has already
+  named_time.replace(named_time.find("torque: {rate"), 6, "time");
+  named_time.replace(named_time.find("torque: torque"), 14, "torque: time");
+  Exported other("arm.yaml", named_time);
+  ASSERT_EQ(other.end().code, 0) << other.end().complained;
+  Instance pushed(other.unit());
+  ASSERT_EQ(pushed.set("time'", 20), 0);
+  ASSERT_TRUE(pushed.start()) << pushed.last_message();
+  ASSERT_LE(pushed.step(0, 0.01).status, fmu_importer::warning) << pushed.last_message();
+  EXPECT_EQ(pushed["time"], 0.01);
+  EXPECT_GT(pushed["arm.speed"], 0);
 }
 
 }  // namespace
