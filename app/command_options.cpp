@@ -260,7 +260,7 @@ void add_plot_options(CLI::App& command, Options& options) {
 
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
-  if (name == "picture" || name == "film" || name == "view") {  // handled by the program that executes it
+  if (name == "picture" || name == "film" || name == "view" || name == "fmu") {  // whose options the program that does it knows
     command.prefix_command()->set_help_flag();
     command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
     return;

@@ -51,6 +51,7 @@ int plot(const Options&);
 int picture(const Options&);
 int film(const Options&);
 int view(const Options&);
+int fmu(const Options&);
 int fit(const Options&);
 int sensitivity(const Options&);
 int nonlinear(const Options&);

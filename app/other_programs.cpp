@@ -32,5 +32,6 @@ int become(const std::string& program, const std::string& command, const Options
 int picture(const Options& options) { return become("pintle-picture", "picture", options, "libcairo2-dev pkgconf"); }
 int film(const Options& options) { return become("pintle-picture", "film", options, "libcairo2-dev pkgconf"); }
 int view(const Options& options) { return become("pintle-view", "view", options, "libcpp-httplib-dev pkgconf"); }
+int fmu(const Options& options) { return become("pintle-fmu", "fmu", options, "libxml2-dev libminizip-dev pkgconf"); }
 
 }  // namespace pintle::app

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "files/noted.h"
 #include "files/trust.h"
 
 namespace pintle {
@@ -83,8 +84,18 @@ void set_trust(Trust trust) { settings() = std::move(trust); }
 
 const Trust& trust() { return settings(); }
 
+static thread_local FilesNoted* noting = nullptr;
+
+void note_file(const fs::path& path) {
+  if (noting && std::ranges::find(noting->paths_, path) == noting->paths_.end()) noting->paths_.push_back(path);
+}
+
+FilesNoted::FilesNoted() { noting = this; }
+FilesNoted::~FilesNoted() { noting = nullptr; }
+
 std::string read_file(const fs::path& path, std::size_t most_bytes) {
   const File file(path);
+  note_file(path);
   if (file.size() > most_bytes)
     throw FileRefused("has " + std::to_string(file.size() >> 20) + " MB; at most " + std::to_string(most_bytes >> 20) +
                       " MB are read. Is it the right file?");
@@ -93,6 +104,7 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
 
 std::string read_head(const fs::path& path, std::size_t count) {
   const File file(path);
+  note_file(path);
   return file.read(static_cast<std::size_t>(std::min<std::uintmax_t>(file.size(), count)));
 }
 
@@ -118,6 +130,7 @@ fs::path contained_file(const fs::path& named, const fs::path& beside, const fs:
     throw FileRefused("\"" + named.string() + "\" lies outside the folder of the scene" +
                       (folders.empty() ? std::string() : ", " + folders[0].string()) + "; copy it there, or allow it with --allow-path " +
                       real.parent_path().string());
+  note_file(path);
   return path;
 }
 

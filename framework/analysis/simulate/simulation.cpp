@@ -120,13 +120,28 @@ void Simulation::go_on(const SavedState& from) {
   frames_.pass(from.t);
 }
 
-bool Simulation::advance(double t) {
+bool SeenEvents::look(const std::vector<Happening>& happenings, const std::vector<Impact>& impacts) {
+  const bool more = happenings.size() != happenings_ || impacts.size() != impacts_;
+  happenings_ = happenings.size();
+  for (; impacts_ < impacts.size(); ++impacts_) open_.push_back(impacts_);
+  const std::size_t ended = std::erase_if(open_, [&](std::size_t i) { return !std::isnan(impacts[i].end); });
+  return more || ended > 0;
+}
+
+bool Simulation::advance(double t) { return advance(t, false); }
+bool Simulation::advance_to_event(double t) { return advance(t, true); }
+
+bool Simulation::advance(double t, bool to_event) {
   const double until = std::min(t, scene_.run.until);
   guarded(run_, last_row_, [&] {
     if (going_ && !opened_) undecided_.see(integrator_.state());
     if (going_ && !opened_) going_ = report();
     opened_ = true;
-    while (goes_on() && integrator_.state().t < until) going_ = step(until);
+    if (to_event) seen_.look(happenings(), impacts());
+    while (goes_on() && integrator_.state().t < until) {
+      going_ = step(until);
+      if (to_event && seen_.look(happenings(), impacts())) break;
+    }
     while (goes_on() && integrator_.state().t >= scene_.run.until && integrator_.act_at_end()) going_ = after_step();
     going_ = going_ && integrator_.failure().empty();
   });
@@ -219,6 +234,10 @@ void Simulation::add_row_here() {
   add_row(sampled_);
 }
 
+SavedState Simulation::saved() const {
+  return {integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained};
+}
+
 /// Energies of a sampled state, and their balance.
 void Simulation::book(const State& state) {
   const Energies e = energies(system_, state, integrator_.sampled());
@@ -246,7 +265,7 @@ void Simulation::add_row(const State& state) {
 void Simulation::save() {
   if (saved_ == integrator_.state().t) return;
   saved_ = integrator_.state().t;
-  listen([&] { listeners_.state({integrator_.state().t, integrator_.save(), run_.first, run_.energy_in_play, run_.worst_unexplained}); });
+  listen([&] { listeners_.state(saved()); });
 }
 
 /// A run that ends early also has a last row, so that its summary and its energy balance refer to the same time.

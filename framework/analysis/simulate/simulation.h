@@ -39,6 +39,17 @@ class RowFigures {
   std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
 };
 
+/// What the outside may see as an event: one of the scene's has acted, a contact has begun or ended.
+class SeenEvents {
+ public:
+  /// @returns whether there is more than when it looked last
+  bool look(const std::vector<Happening>&, const std::vector<Impact>&);
+
+ private:
+  std::size_t happenings_ = 0, impacts_ = 0;
+  std::vector<std::size_t> open_;  ///< impacts that had not ended
+};
+
 /// A run in progress, which can be stopped at any time, inspected, given new values of the scene's own states, and continued. A single call
 /// of `advance` to the scene's end is what `simulate` does.
 class Simulation {
@@ -49,6 +60,12 @@ class Simulation {
 
   /// Advances to time t, where a step ends, or to an earlier end of the run. @returns false once the run is over
   bool advance(double t);
+  /// The same, but no further than to the first step's end at which SeenEvents sees one. To go on from there is what `advance` does.
+  bool advance_to_event(double t);
+  const std::vector<Happening>& happenings() const { return integrator_.happenings(); }
+  const std::vector<Impact>& impacts() const { return integrator_.impacts(); }
+  /// From which another Simulation of the same model goes on as this one does.
+  SavedState saved() const;
   double time() const { return integrator_.state().t; }
   /// Sets an own state of the scene, by its index in System::states, from now on, as an event would.
   void set(int state, double value);
@@ -61,6 +78,7 @@ class Simulation {
   using Wall = std::chrono::steady_clock;
 
   void go_on(const SavedState&);
+  bool advance(double t, bool to_event);
   bool goes_on() const { return going_ && run_.status == Status::finished && integrator_.ended().empty(); }
   bool step(double until);
   bool after_step();
@@ -92,6 +110,7 @@ class Simulation {
   RowFigures figures_;
   SlowContacts slow_;
   UndecidedContacts undecided_;
+  SeenEvents seen_;
   const SavedState* from_;
   bool started_ = false;                ///< the energy balance has begun
   bool opened_ = false, going_ = true;  ///< the start has been reported; steps succeed

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fmi/contents.h"
+
+namespace pintle::app {
+
+struct FmuOrder {
+  std::filesystem::path scene, out;  ///< out empty: SCENE.fmu in the folder of now
+  Overrides set;
+  std::vector<std::string> inputs, outputs;
+};
+
+struct ExportedFmu {
+  std::filesystem::path file;
+  fmi::FmuContents contents;
+  std::vector<std::string> files;  ///< of the scene, itself first
+  std::vector<std::string> warnings;
+};
+
+/// Writes a scene as a unit for co-simulation.
+/// @throws SceneError, AssemblyError, FileError
+ExportedFmu export_fmu(const FmuOrder&);
+
+}  // namespace pintle::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "fmi/fmi3.h"
+#include "fmi/instance.h"
+
+namespace pintle::fmi {
+
+/// What an importer holds by a fmi3Instance.
+struct FmuHandle {
+  fmi3InstanceEnvironment environment;
+  fmi3LogMessageCallback log;
+  bool logs_events;
+  std::string name;
+  std::unique_ptr<FmuInstance> instance = nullptr;
+  fmi3Status worst = fmi3OK;  ///< of the call that goes on
+
+  void say(fmi3Status status, const char* category, const std::string& message) noexcept {
+    if (log) log(environment, status, category, message.c_str());
+  }
+};
+
+/// act(handle) for a function of the C interface: no exception leaves it, and what went wrong is logged.
+template <class Act>
+fmi3Status safely(fmi3Instance instance, const char* function, Act act) noexcept {
+  if (!instance) return fmi3Error;
+  auto& handle = *static_cast<FmuHandle*>(instance);
+  handle.worst = fmi3OK;
+  try {
+    try {
+      act(handle);
+      return handle.worst;
+    } catch (const std::exception& error) {
+      handle.say(fmi3Error, "logStatusError", handle.name + ": " + function + ": " + error.what());
+    }
+  } catch (...) {  // not even memory for the message
+    handle.say(fmi3Error, "logStatusError", "not enough memory");
+  }
+  return fmi3Error;
+}
+
+}  // namespace pintle::fmi
