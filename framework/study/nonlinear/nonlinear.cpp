@@ -129,8 +129,8 @@ class ChainWorkers {
                              }};
     try {
       const std::size_t k = study_.case_of(number);
-      const OrbitEnd end = follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(k), study_.question, before, parameters_[k],
-                                        bodies_, limits);
+      const OrbitEnd end =
+          follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(k), study_.question, before, parameters_[k], bodies_, limits);
       row.status = end.status, row.reason = end.reason, row.values = end.orbit.numbers(), row.units = end.units;
       row.t_end = end.orbit.end_t, row.steps = end.steps, row.impacts = end.impacts;
     } catch (const std::bad_alloc&) {
