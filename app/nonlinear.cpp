@@ -95,6 +95,8 @@ void print(const Nonlinear& study, const SweepEnd& end, const std::vector<Follow
   if (study.question.section) add_periods(study, values, rows);
   if (!study.varies() && !values.empty()) {
     if (const double k = values[0].orbit.zero_one; !std::isnan(k)) rows.emplace_back("0-1 test", "K = " + number(k, 3));
+    if (const double d = values[0].orbit.dimension; !std::isnan(d))
+      rows.emplace_back("section", "of correlation dimension " + number(d, 3));
     add_orbit(values[0].orbit.cycle, rows);
     add_exponents(values[0].orbit, rows);
     add_impacts(values[0].orbit.impacts, values[0].orbit.t.size(), rows);

@@ -140,7 +140,8 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   std::string out = heading_of_values(study) + "status";
   if (study.question.section)
     out +=
-        ",returns,period,K,impacts a return,interval [s],least approach [m/s],median approach [m/s],greatest approach [m/s],grazing,"
+        ",returns,period,K,dimension,impacts a return,interval [s],least approach [m/s],median approach [m/s],greatest approach "
+        "[m/s],grazing,"
         "share of time in contact";
   for (int j = 1; j <= exponents; ++j) out += ",exponent " + std::to_string(j) + " [1/s],standard error " + std::to_string(j) + " [1/s]";
   out += ",reason\n";
@@ -151,7 +152,8 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
       const ImpactFigures& f = orbit.impacts;
       const double n = static_cast<double>(orbit.t.size()), none = std::numeric_limits<double>::quiet_NaN();
       const auto known = [&](double x) { return f.count > 0 ? x : none; };
-      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period) + "," + number_field(orbit.zero_one);
+      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period) + "," + number_field(orbit.zero_one) + "," +
+             number_field(orbit.dimension);
       for (const double x : {n > 0 ? f.count / n : none, f.count > 1 ? f.interval : none, known(f.least_approach), known(f.median),
                              known(f.most_approach), n > 0 ? f.grazing : none, n > 0 ? f.contact_share : none})
         out += "," + number_field(x);
@@ -174,7 +176,8 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
     if (study.varies()) one[parameter_header(study)] = value.parameter, one["direction"] = value.backwards ? "backwards" : "forwards";
     one["status"] = value.status, one["reason"] = value.reason;
     if (study.question.section) {
-      one["returns"] = value.orbit.t.size(), one["period"] = value.period, one["K"] = number(value.orbit.zero_one);
+      one["returns"] = value.orbit.t.size(), one["period"] = value.period, one["K"] = number(value.orbit.zero_one),
+      one["dimension"] = number(value.orbit.dimension);
       one["impacts"] = value.orbit.impacts.count, one["grazing"] = value.orbit.impacts.grazing;
     }
     if (const Cycle& cycle = value.orbit.cycle; cycle.found()) {

@@ -12,6 +12,7 @@
 #include "framework/configuration/assemble.h"
 #include "framework/mechanism/trajectory.h"
 #include "framework/study/nonlinear/cycle.h"
+#include "framework/study/nonlinear/dimension.h"
 #include "framework/study/nonlinear/follower.h"
 #include "framework/study/nonlinear/lyapunov.h"
 #include "framework/study/nonlinear/zero_one.h"
@@ -208,6 +209,7 @@ class Following {
       out_.orbit.signals.push_back(columns.read(model_, integrator, sampled_));
     }
     out_.orbit.zero_one = zero_one_of(out_.orbit.signals, section.tolerance);
+    out_.orbit.dimension = correlation_dimension(out_.orbit.signals, section.tolerance);
     if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
   }
 

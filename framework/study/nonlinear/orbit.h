@@ -92,7 +92,8 @@ struct Orbit {
   std::vector<double> t;                     ///< of each return recorded [s]
   std::vector<std::vector<double>> signals;  ///< of each
   ImpactFigures impacts;
-  double zero_one = std::numeric_limits<double>::quiet_NaN();  ///< K of the first signal; NaN: too few returns
+  double zero_one = std::numeric_limits<double>::quiet_NaN();   ///< K of the first signal; NaN: too few returns
+  double dimension = std::numeric_limits<double>::quiet_NaN();  ///< of the section, by its correlations; likewise
   Cycle cycle;
   std::vector<Exponent> exponents;
   std::vector<double> running_t;             ///< [s]
