@@ -5,6 +5,7 @@
 
 #include "fmi/fmi3.h"
 #include "fmi/instance.h"
+#include "framework/common/library_threads.h"
 
 namespace pintle::fmi {
 
@@ -28,6 +29,7 @@ fmi3Status safely(fmi3Instance instance, const char* function, Act act) noexcept
   if (!instance) return fmi3Error;
   auto& handle = *static_cast<FmuHandle*>(instance);
   handle.worst = fmi3OK;
+  hold_library_threads();  // of whichever thread the importer calls from
   try {
     try {
       act(handle);

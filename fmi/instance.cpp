@@ -6,7 +6,6 @@
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/common/index.h"
-#include "framework/common/library_threads.h"
 #include "framework/common/text.h"
 #include "framework/mechanism/trajectory.h"
 
@@ -55,7 +54,6 @@ FmuInstance::FmuInstance(FmuContents contents, std::filesystem::path resources, 
       event_mode_(event_mode),
       early_return_(early_return),
       tell_(std::move(tell)) {
-  hold_library_threads();
   for (std::size_t v = 0; v < contents_.variables.size(); ++v)
     if (contents_.variables[v].kind == FmuVariable::input) input_.push_back(v);
   scene_of(contents_, resources_, {std::vector<std::optional<double>>(contents_.variables.size()), {}, {}});  // it is there and can be read

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <thread>
 
 #include "framework/analysis/simulate/simulation.h"
 #include "tests/fmi/exported.h"
@@ -203,6 +205,23 @@ TEST(Fmu, ResetAndRunAgainIsTheSameToTheBitAndSoAreTwoAtOnce) {
   ASSERT_TRUE(one.start(0.01));
   for (int k = 0; k < 10; ++k) ASSERT_FALSE(follow(one, 1e-3 * (k + 1), 1e-3, {}, 1e-3 * k).failed);
   EXPECT_EQ(one["gudgeon pin.ex"], first);
+}
+
+// Each in a thread of its own, made in another one.
+TEST(Fmu, FourAtOnceInThreadsAreTheSameToTheBit) {
+  Exported made = Exported::example("slider_crank_clearance.yaml");
+  std::vector<std::unique_ptr<Instance>> instances;
+  for (int i = 0; i < 4; ++i) instances.push_back(std::make_unique<Instance>(made.unit()));
+  std::vector<double> found(instances.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    threads.emplace_back([&, i] {
+      Instance& one = *instances[i];
+      if (one.start(5e-3) && !follow(one, 5e-3, 1e-3).failed) found[i] = one["gudgeon pin.ex"];
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_NE(found[0], 0);
+  for (const double ex : found) EXPECT_EQ(ex, found[0]);
 }
 
 TEST(Fmu, ParametersAreThoseOfSet) {
