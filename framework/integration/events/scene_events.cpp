@@ -16,6 +16,7 @@ namespace {
 
 constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of the largest that it was: where it is met, and where it is zero
 constexpr double guard_still = 1e-10;                         // … and within which it has not moved
+constexpr double guard_ahead = 1e-5;                          // so far a motion is led on to see whether it leaves zero [s]
 
 }  // namespace
 
@@ -62,15 +63,49 @@ bool SceneEvents::holds(int event, const State& state) const {
   return true;
 }
 
-// By what the motion starts with.
-bool SceneEvents::rises(int event, const Instant& from) const {
-  constexpr double dt = 1e-5;
+State SceneEvents::extrapolated(const Instant& from, double dt) const {
   const Eigen::Index n = system_.n();
   State next = from.state;
   next.t += dt;
   next.y += dt * from.dy;
   next.y.head(n) += dt * dt / 2 * from.dy.segment(n, n);
-  return all_of(event, next).value > std::max(guard_near, all_of(event, from.state).value);
+  return next;
+}
+
+// By what the motion starts with.
+bool SceneEvents::rises(int event, const Instant& from) const {
+  return all_of(event, extrapolated(from, guard_ahead)).value > std::max(guard_near, all_of(event, from.state).value);
+}
+
+// What is at zero there is as it is written, in most conditions whatever the state is.
+bool SceneEvents::true_at_zero(int event, const State& state) const {
+  const auto& when = rules_[at(event)].when;
+  const auto equal = std::ranges::count(when, true, &SceneComparison::at_zero);
+  return equal == std::ssize(when) || (equal > 0 && holds(event, state));
+}
+
+bool SceneEvents::on_zero(int event, const State& state) const { return std::abs(all_of(event, state).value) <= guard_near; }
+
+// At this end of the step, in the part of it that is next to that, and where the motion would lead from there: not in passing.
+bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion, bool at_end) const {
+  constexpr double part = 0.125, ahead = 1e-3;
+  const double beside = at_end ? step.to.state.t - part * step.h : step.from.state.t + part * step.h;
+  return on_zero(event, motion.at(beside)) &&
+         on_zero(event, extrapolated(at_end ? step.to : step.from, std::max(guard_ahead, ahead * step.h)));
+}
+
+// What stands at zero is true or false there as it is written: so the zero to be passed moves to the side from which it has come.
+void SceneEvents::settle(int event, const Step& step, const DenseOutput& motion, Guard& from, Guard& to) {
+  if (waits_[at(event)] == Waits::no_more || !(step.h > 0)) return;
+  double& shift = shift_[at(event)];
+  const double aside = believed(event) ? -2 * guard_near : 2 * guard_near;
+  const auto differs = [&](const Guard& guard, bool at_end) {
+    return std::abs(guard.value - shift) <= guard_near && true_at_zero(event, (at_end ? step.to : step.from).state) != believed(event) &&
+           stands(event, step, motion, at_end);
+  };
+  if (shift == aside || !(differs(to, true) || differs(from, false))) return;
+  from.value += aside - shift, to.value += aside - shift;
+  shift = aside;
 }
 
 // A comparison is as large as what it compares has been, or would be if all moved as fast as the fastest: else it would be measured by
@@ -180,7 +215,7 @@ void SceneEvents::start(Step& step) {
       if (on_level && is_true) shift_[at(event)] = 2 * guard_near - now;
     } else if (is_true || (on_level && rises(event, step.to))) {
       waits_[at(event)] = Waits::for_false;
-      if (on_level) shift_[at(event)] = 2 * guard_near;
+      if (on_level || true_at_zero(event, step.to.state)) shift_[at(event)] = 2 * guard_near;
     }
   }
 }
@@ -211,6 +246,7 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
     const double now = all_of(other, step.to.state).value;
     const double before = step.h > 0 ? all_of(other, step.from.state).value : now;
     if (!(std::abs(now) <= 4 * guard_near && before - now > guard_near)) continue;
+    if (true_at_zero(other, step.to.state) && on_zero(other, extrapolated(step.to, guard_ahead))) continue;  // it comes to stand there
     if (rules_[at(other)].otherwise.empty())
       waits_[at(other)] = Waits::for_true, shift_[at(other)] = -2 * guard_near;
     else
@@ -223,9 +259,10 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
 void SceneEvents::decide_on_level(const std::vector<double>& before, const State& state) {
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value;
+    if (now == before[at(event)]) continue;
     if (waits_[at(event)] == Waits::for_false && rules_[at(event)].otherwise.empty() && now < -guard_near)
       waits_[at(event)] = Waits::for_true, shift_[at(event)] = 0;
-    if (now == before[at(event)] || !(std::abs(now) <= guard_near) || waits_[at(event)] == Waits::no_more) continue;
+    if (!(std::abs(now) <= guard_near) || waits_[at(event)] == Waits::no_more) continue;
     const bool is_true = holds(event, state);
     if (is_true == (waits_[at(event)] == Waits::for_true))
       shift_[at(event)] = (is_true ? 2 : -2) * guard_near - now;

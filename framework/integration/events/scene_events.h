@@ -62,6 +62,7 @@ class SceneEvents final : public EventGroup {
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
   bool comes_at_zero(int event, const State&) const override;
+  void settle(int event, const Step&, const DenseOutput&, Guard& from, Guard& to) override;
   bool met(int event, const Guard&) const override;
   bool hardly_left(int event, const Step&, const DenseOutput&) const override;
   void start(Step&) override;
@@ -76,11 +77,16 @@ class SceneEvents final : public EventGroup {
   /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   Guard all_of(int event, const State&) const;
+  bool believed(int event) const { return waits_[static_cast<std::size_t>(event)] == Waits::for_false; }
   /// Each comparison over its size; where wanted, its kinks too. @returns the least of them
   double look(int event, const State&, std::vector<double>& out, bool with_kinks = false) const;
   bool holds(int event, const State&) const;
   bool rises(int event, const Instant&) const;
+  State extrapolated(const Instant&, double dt) const;
   void see(const State&);
+  bool true_at_zero(int event, const State&) const;
+  bool on_zero(int event, const State&) const;
+  bool stands(int event, const Step&, const DenseOutput&, bool at_end) const;
   void rearm_beside(int event, const Step&);
   void decide_on_level(const std::vector<double>& before, const State&);
   bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
