@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "framework/build/build.h"
 #include "tests/refusal.h"
 #include "tests/scenes/restart_runs.h"
@@ -85,6 +87,25 @@ TEST(EventContact, IsNotEngagedDeepInside) {
   const Whole w = run(disc("events: {open: {when: t > 0.1 s, do: {release: rest}}, close: {when: ball.y < 5 cm, do: {engage: rest}}}"));
   EXPECT_EQ(w.run.status, Status::failed);
   EXPECT_NE(w.run.reason.find("the event \"close\": \"rest\" cannot be engaged: its surfaces overlap"), std::string::npos) << w.run.reason;
+}
+
+// Falling from 0.1 m, 1 mm deep when it is engaged: k δ^(5/2) 2/5 come with it.
+TEST(EventContact, ThatIsEngagedWhereItOverlapsBooksWhatItHoldsInStore) {
+  const double stored = 0.4 * 1e7 * std::pow(1e-3, 2.5);
+  for (const char* method : {"dopri5", "rkf45", "verner87", "generalized-alpha"}) {
+    const Whole w = run(R"(
+gravity: [0, -9.81]
+ground: {profiles: {floor: {path: [[1 m, 0], [-1 m, 0]]}}}
+bodies: {ball: {rigid: {mass: 1 kg, inertia: 4e-4}, points: {C: [0, 0]}, profiles: {rim: {disc: C, radius: 20 mm}}, pose: {at: [0, 0.1 m]}}}
+contacts: {floor: {between: [ball.rim, ground.floor], normal: {hertz: {stiffness: 1e7 N/m^1.5}}, engaged: false}}
+events: {e: {when: ball.y < 19 mm, do: {engage: floor}}}
+run: {until: 0.3 s}
+)",
+                        {method, method, 1e-9, 0});
+    expect_sound(w);
+    EXPECT_NEAR(w.ledger("floor.lost to switching [J]"), -stored, 1e-6 * stored) << method;
+    EXPECT_LT(std::abs(w.run.unexplained), 1e-4 * stored) << method;
+  }
 }
 
 TEST(EventRefusal, OfAJointThatDoesNotMeet) {
