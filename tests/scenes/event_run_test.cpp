@@ -108,6 +108,31 @@ run: {until: 0.3 s}
   }
 }
 
+// An impact of the scheme is an impulse; told as a force it is that over a whole step, however short an event leaves the step: at most of the
+// fall from 0.48 m, and as much as a step falls farther.
+TEST(EventContact, ThatCutsAStepOfTimeSteppingLeavesItsForce) {
+  const double step = 5e-4, e = 0.5, v = std::sqrt(2 * 9.81 * 0.48), most = (1 + e) * (v + 2 * 9.81 * step) / step;
+  const Whole w = run(R"(
+gravity: [0, -9.81]
+ground: {profiles: {floor: {path: [[1 m, 0], [-1 m, 0]]}}}
+bodies:
+  ball: {rigid: {mass: 1 kg, inertia: 4e-4}, points: {C: [0, 0]}, profiles: {rim: {disc: C, radius: 20 mm}}, pose: {at: [0, 0.5 m]}}
+contacts: {floor: {between: [ball.rim, ground.floor], model: impact, restitution: 0.5}}
+states: {n: {rate: 0/s}}
+events:
+  hit: {when: floor.normal > 0 N, do: {set: {n: n + 1}, row: true}}
+  up: {when: ball.vy > 0 m/s, do: {set: {n: n + 1}, row: true}}
+run: {until: 1 s, method: {moreau: {step: 0.5 ms}}}
+)");
+  expect_sound(w);
+  ASSERT_FALSE(w.run.impacts.empty());
+  EXPECT_GT(w.last("n [1]"), 2);
+  EXPECT_NEAR(w.run.impacts[0].impulse, (1 + e) * v, 2e-2 * v);
+  for (const Impact& impact : w.run.impacts) EXPECT_LE(impact.peak_force, most);
+  EXPECT_GT(w.run.impacts[0].peak_force, 0.98 * (1 + e) * v / step);
+  for (const double normal : w.column("floor.normal [N]")) EXPECT_LE(normal, most);
+}
+
 TEST(EventRefusal, OfAJointThatDoesNotMeet) {
   const Whole w =
       run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {shut: {when: t > 0.1 s, do: {engage: pin}}}"));
