@@ -133,6 +133,23 @@ run: {until: 1 s, method: {moreau: {step: 0.5 ms}}}
   for (const double normal : w.column("floor.normal [N]")) EXPECT_LE(normal, most);
 }
 
+TEST(EventRefusal, OfADivisionByZeroNamesSignalTimeAndState) {
+  const auto ends = [](const std::string& events) {
+    return run(disc("states: {k: {rate: 0/(1 s), start: 0.5}}\nevents: {" + events + "}")).run;
+  };
+  for (const char* from : {"", "from start: false, "}) {
+    const auto at_start = ends("e: {when: 1/ball.x > 3/m, " + std::string(from) + "do: {row: true}}");
+    EXPECT_EQ(at_start.status, Status::failed) << from;
+    pintle_test::expect_says(at_start.reason, {"the event \"e\"", "not a finite number at t = 0 s", "1/ball.x > 3/m", "ball.x = 0"});
+  }
+  const auto set = ends("e: {when: t > 0.1 s, do: {set: {k: k/(k - 0.5)}}}");
+  EXPECT_EQ(set.status, Status::failed);
+  pintle_test::expect_says(set.reason, {"the event \"e\" sets k", "not a finite number at t = 0.1 s", "k/(k - 0.5)", "k = 0.5"});
+  const auto of_a_row = ends("e: {when: t > 0.1 s, do: {set: {k: rest.normal/(1 N)/(k - 0.5)}}}");
+  EXPECT_EQ(of_a_row.status, Status::failed);
+  pintle_test::expect_says(of_a_row.reason, {"the event \"e\" sets k", "rest.normal = ", "k = 0.5"});
+}
+
 TEST(EventRefusal, OfAJointThatDoesNotMeet) {
   const Whole w =
       run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {shut: {when: t > 0.1 s, do: {engage: pin}}}"));

@@ -35,7 +35,7 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   const auto& when = rules_[at(event)].when;
   for (std::size_t k = 0; k < when.size(); ++k) {
     Guard now = when[k].difference(system_, state, {.rate = true});
-    if (std::isnan(now.value)) return now;
+    if (!std::isfinite(now.value)) return {std::numeric_limits<double>::quiet_NaN()};
     if (const double size = size_[first_[at(event)] + k]; size > 0) now.value /= size, now.rate /= size;
     if (now.value < least.value) least = now;
   }
@@ -309,7 +309,7 @@ bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& s
 EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
   for (const SceneComparison& one : rule.when) {
-    if (!std::isnan(one.difference(system_, step.to.state, {}).value)) continue;
+    if (std::isfinite(one.difference(system_, step.to.state, {}).value)) continue;
     EventOutcome none;
     none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(step.to.state.t, 9) +
                    " s" + (one.seen ? one.seen(system_, step.to.state) : "");
@@ -335,7 +335,9 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
     if (const auto* set = std::get_if<SetState>(&action)) {
       set->set(system_, seen, state);
       if (!state.y.allFinite()) {
-        out.failure = "the event " + quoted(rule.name) + " sets " + set->name + " to what is not a finite number";
+        out.failure = "the event " + quoted(rule.name) + " sets " + set->name +
+                      " to what is not a finite number at t = " + number_text(state.t, 9) + " s" +
+                      (set->seen ? set->seen(system_, seen) : "");
         return out;
       }
       out.change = std::max(out.change, EventOutcome::Change::jump);

@@ -19,6 +19,7 @@ struct StopRun {
 struct SetState {
   std::string name;
   std::function<void(const System&, const State& seen, State&)> set;
+  std::function<std::string(const System&, const State&)> seen = {};  ///< what it is told from there, in words
 };
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
@@ -61,8 +62,8 @@ class SceneEvents final : public EventGroup {
   Guard guard(int event, const State&) const override;
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
-  bool comes_at_zero(int event, const State&) const override;
   void settle(int event, const Step&, const DenseOutput&, Guard& from, Guard& to) override;
+  bool comes_at_zero(int event, const State&) const override;
   bool met(int event, const Guard&) const override;
   bool hardly_left(int event, const Step&, const DenseOutput&) const override;
   void start(Step&) override;
@@ -76,17 +77,17 @@ class SceneEvents final : public EventGroup {
  private:
   /// What an event is waiting for: to become true or, having acted, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
-  Guard all_of(int event, const State&) const;
   bool believed(int event) const { return waits_[static_cast<std::size_t>(event)] == Waits::for_false; }
+  Guard all_of(int event, const State&) const;
   /// Each comparison over its size; where wanted, its kinks too. @returns the least of them
   double look(int event, const State&, std::vector<double>& out, bool with_kinks = false) const;
   bool holds(int event, const State&) const;
-  bool rises(int event, const Instant&) const;
   State extrapolated(const Instant&, double dt) const;
-  void see(const State&);
+  bool rises(int event, const Instant&) const;
   bool true_at_zero(int event, const State&) const;
   bool on_zero(int event, const State&) const;
   bool stands(int event, const Step&, const DenseOutput&, bool at_end) const;
+  void see(const State&);
   void rearm_beside(int event, const Step&);
   void decide_on_level(const std::vector<double>& before, const State&);
   bool switches_all(const std::vector<EventAction>&, State&, EventOutcome&);
