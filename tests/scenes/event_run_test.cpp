@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "framework/analysis/simulate/run_warnings.h"
 #include "framework/build/build.h"
 #include "tests/refusal.h"
 #include "tests/scenes/restart_runs.h"
@@ -218,6 +219,14 @@ TEST(EventWarning, SaysWhatNeverComesAndWhatNeverActs) {
   for (const std::string& warning : w.run.warnings) all += warning + "\n";
   EXPECT_NE(all.find("the event \"never\" never comes"), std::string::npos) << all;
   EXPECT_NE(all.find("\"pin\" starts released, and no event engages it"), std::string::npos) << all;
+}
+
+TEST(EventWarning, NamesTheEventsThatNeverCame) {
+  const Scene s =
+      read_scene_text(disc("events: {late: {when: ball.y > 5 m, do: {row: true}}, first: {when: t > 0.1 s, once: true, do: {row: true}}, "
+                           "far: {when: ball.x > 1 m, do: {row: true}}}"),
+                      "scene.yaml");
+  EXPECT_EQ(never_came(s, run(s).run), (std::vector<std::string>{"late", "far"}));
 }
 
 }  // namespace
