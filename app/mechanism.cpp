@@ -14,6 +14,7 @@
 #include "app/report.h"
 #include "app/run_end.h"
 #include "framework/analysis/simulate/identity.h"
+#include "framework/analysis/simulate/run_warnings.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/output/results.h"
@@ -55,13 +56,14 @@ void add_happenings(const Run& run, Rows& rows) {
   }
 }
 
-void add_what_did_not_happen(const Scene& scene, const Run& run, Rows& rows) {
+void add_never_came(const Scene& scene, const Run& run, Rows& rows) {
   constexpr std::size_t most = 8;
-  std::vector<std::string> names;
-  for (const SceneEvent& e : scene.events)
-    if (std::ranges::find(run.happenings, e.name, &Happening::event) == run.happenings.end()) names.push_back(e.name);
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) rows.emplace_back("event " + names[k], "did not come");
-  if (names.size() > most) rows.emplace_back("  …", std::to_string(names.size() - most) + " more events did not come");
+  const std::vector<std::string> names = never_came(scene, run);
+  if (names.empty()) return;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) text += (k > 0 ? ", " : "") + names[k];
+  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more, all in run.json";
+  rows.emplace_back("events that never came", text);
 }
 
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
@@ -89,7 +91,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     rows.emplace_back("contacts at " + s.contact_names[c], contacts_text(s.contacts[c], static_cast<int>(c), run.impacts));
   }
   add_happenings(run, rows);
-  add_what_did_not_happen(scene, run, rows);
+  add_never_came(scene, run, rows);
   rows.emplace_back("method", model.scheme.reason + (run.switched.empty() ? "" : "; then " + run.switched));
   rows.emplace_back("steps", std::to_string(run.counts.steps) + " (" + std::to_string(run.counts.rejected) + " rejected), " +
                                  std::to_string(run.counts.evaluations) + " evaluations in " + number(run.seconds, 3) + " s");

@@ -103,9 +103,10 @@ class EventLaws {
     rows_->outputs = model_.outputs;
   }
   /// ": crank.angle > 1 (scene.yaml:9)"
-  std::string told(const SceneEvent& event) const {
+  std::string told(const SceneEvent& event) const { return told(event, event.guard); }
+  std::string told(const SceneEvent& event, const Law& law) const {
     const Place& place = event.place;
-    return ": " + event.guard.text + " (" + (place.file.empty() ? scene_.file : place.file) +
+    return ": " + law.text + " (" + (place.file.empty() ? scene_.file : place.file) +
            (place.line > 0 ? ":" + std::to_string(place.line) : "") + ")";
   }
 
@@ -116,17 +117,39 @@ class EventLaws {
   std::shared_ptr<Model> rows_;
 };
 
+using Inputs = std::array<double, most_law_inputs>;
+
+Inputs inputs_of(const System& system, const SignalLaw& law, const State& state) {
+  Inputs in{};
+  for (std::size_t k = 0; k < law.in.size(); ++k) in[k] = signal_at(system, system.signals[at(law.in[k])], state.y);
+  return in;
+}
+
+// "crank.angle = 1 rad, t = 2 s", of the inputs that `read` gives.
+template <class Read>
+std::function<std::string(const System&, const State&)> seen_by(const Law& law, const std::string& told, const Read& read) {
+  return [read, law, told](const System& system, const State& state) {
+    const auto in = read(system, state);
+    return told + seen_by_law(law, law.of_signals, state.t, {in.begin(), in.begin() + static_cast<std::ptrdiff_t>(law.signals.size())});
+  };
+}
+
 SetState setting(const Scene& scene, const SceneEvent& event, const std::string& name, const Law& value, EventLaws& laws) {
   const auto state = std::ranges::find(scene.states, name, &SceneState::name);
   if (state == scene.states.end()) throw SceneError(scene.file, event.place, "there is no state " + quoted(name) + " to set");
   const int index = static_cast<int>(state - scene.states.begin());
-  if (laws.names_columns(value))
-    return {name, [index, law = laws.of_a_row(value, event)](const System& system, const State& seen, State& now) {
-              now.y[own_state(system, index)] = law(seen);
-            }};
-  return {name, [index, law = laws.of_motion(value, event.place)](const System& system, const State& seen, State& now) {
-            now.y[own_state(system, index)] = law_at(system, law, seen.t, seen.y);
-          }};
+  const std::string told = laws.told(event, value);
+  if (laws.names_columns(value)) {
+    const RowLaw of = laws.of_a_row(value, event);
+    return {name, [index, of](const System& system, const State& seen, State& now) { now.y[own_state(system, index)] = of(seen); },
+            seen_by(value, told, [of](const System&, const State& there) { return of.inputs(there); })};
+  }
+  const SignalLaw of = laws.of_motion(value, event.place);
+  return {name,
+          [index, of](const System& system, const State& seen, State& now) {
+            now.y[own_state(system, index)] = law_at(system, of, seen.t, seen.y);
+          },
+          seen_by(value, told, [of](const System& system, const State& there) { return inputs_of(system, of, there); })};
 }
 
 // Of a gear or rack with backlash, where known.
@@ -202,14 +225,6 @@ double rate_of(const System& system, const MotionSignal& signal, const State& st
   return slope.pose_a.head<2>().dot(a.v) + slope.pose_a[2] * a.w + slope.pose_b.head<2>().dot(b.v) + slope.pose_b[2] * b.w;
 }
 
-using Inputs = std::array<double, most_law_inputs>;
-
-Inputs inputs_of(const System& system, const SignalLaw& law, const State& state) {
-  Inputs in{};
-  for (std::size_t k = 0; k < law.in.size(); ++k) in[k] = signal_at(system, system.signals[at(law.in[k])], state.y);
-  return in;
-}
-
 // A comparison that depends only on t.
 SceneComparison of_time(const Law& law, const Comparison& from, const std::string& told) {
   return {.difference =
@@ -240,15 +255,6 @@ class Reading {
   SidedProgram sides_;
   std::size_t inputs_;
 };
-
-// "crank.angle = 1 rad, t = 2 s", for the inputs given by `read`.
-template <class Read>
-std::function<std::string(const System&, const State&)> seen_by(const Law& law, const std::string& told, const Read& read) {
-  return [read, law, told](const System& system, const State& state) {
-    const auto in = read(system, state);
-    return told + seen_by_law(law, law.of_signals, state.t, {in.begin(), in.begin() + static_cast<std::ptrdiff_t>(law.signals.size())});
-  };
-}
 
 SceneComparison of_a_row(const Law& law, const Comparison& from, const SceneEvent& event, EventLaws& laws) {
   const RowLaw of = laws.of_a_row(law, event);

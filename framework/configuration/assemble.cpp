@@ -15,6 +15,7 @@
 #include "framework/configuration/equilibrium.h"
 #include "framework/configuration/ideal_pin.h"
 #include "framework/configuration/least_step.h"
+#include "framework/configuration/locked_couplings.h"
 #include "framework/configuration/named_place.h"
 #include "framework/configuration/overlap.h"
 #include "framework/configuration/row_space.h"
@@ -222,6 +223,7 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
   if (!singular.empty())
     out.push_back("the start is a singular pose, where the motion can branch: in this pose only, other joints imply " + singular +
                   "; speeds in `start` choose the branch; without them it is the one nearest to the least kinetic energy");
+  for (std::string& locked : locked_couplings(system, assembly.start.t, assembly.start.y)) out.push_back(std::move(locked));
   return out;
 }
 

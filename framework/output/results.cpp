@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/analysis/simulate/run_warnings.h"
 #include "framework/output/run_files.h"
 #include "framework/output/scene_json.h"
 #include "framework/scene/yaml/json_text.h"
@@ -135,6 +136,7 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   if (!scene.events.empty()) {
     Json& events = out["events"] = Json::array();
     for (const Happening& h : run.happenings) events.push_back({{"event", h.event}, {"t [s]", h.t}, {"did", h.did}});
+    if (const auto never = never_came(scene, run); !never.empty()) out["events that never came"] = never;
   }
   out.update(Json{{"model", assembly_json(system, assembly)},
                   {"method", method_json(model.scheme, run.switched)},

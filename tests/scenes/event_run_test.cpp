@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "framework/analysis/simulate/run_warnings.h"
 #include "framework/build/build.h"
 #include "tests/refusal.h"
 #include "tests/scenes/restart_runs.h"
@@ -87,6 +90,67 @@ TEST(EventContact, IsNotEngagedDeepInside) {
   EXPECT_NE(w.run.reason.find("the event \"close\": \"rest\" cannot be engaged: its surfaces overlap"), std::string::npos) << w.run.reason;
 }
 
+// Falling from 0.1 m, 1 mm deep when it is engaged: k δ^(5/2) 2/5 come with it.
+TEST(EventContact, ThatIsEngagedWhereItOverlapsBooksWhatItHoldsInStore) {
+  const double stored = 0.4 * 1e7 * std::pow(1e-3, 2.5);
+  for (const char* method : {"dopri5", "rkf45", "verner87", "generalized-alpha"}) {
+    const Whole w = run(R"(
+gravity: [0, -9.81]
+ground: {profiles: {floor: {path: [[1 m, 0], [-1 m, 0]]}}}
+bodies: {ball: {rigid: {mass: 1 kg, inertia: 4e-4}, points: {C: [0, 0]}, profiles: {rim: {disc: C, radius: 20 mm}}, pose: {at: [0, 0.1 m]}}}
+contacts: {floor: {between: [ball.rim, ground.floor], normal: {hertz: {stiffness: 1e7 N/m^1.5}}, engaged: false}}
+events: {e: {when: ball.y < 19 mm, do: {engage: floor}}}
+run: {until: 0.3 s}
+)",
+                        {method, method, 1e-9, 0});
+    expect_sound(w);
+    EXPECT_NEAR(w.ledger("floor.lost to switching [J]"), -stored, 1e-6 * stored) << method;
+    EXPECT_LT(std::abs(w.run.unexplained), 1e-4 * stored) << method;
+  }
+}
+
+// An impact of the scheme is an impulse; told as a force it is that over a whole step, however short an event leaves the step: at most of the
+// fall from 0.48 m, and as much as a step falls farther.
+TEST(EventContact, ThatCutsAStepOfTimeSteppingLeavesItsForce) {
+  const double step = 5e-4, e = 0.5, v = std::sqrt(2 * 9.81 * 0.48), most = (1 + e) * (v + 2 * 9.81 * step) / step;
+  const Whole w = run(R"(
+gravity: [0, -9.81]
+ground: {profiles: {floor: {path: [[1 m, 0], [-1 m, 0]]}}}
+bodies:
+  ball: {rigid: {mass: 1 kg, inertia: 4e-4}, points: {C: [0, 0]}, profiles: {rim: {disc: C, radius: 20 mm}}, pose: {at: [0, 0.5 m]}}
+contacts: {floor: {between: [ball.rim, ground.floor], model: impact, restitution: 0.5}}
+states: {n: {rate: 0/s}}
+events:
+  hit: {when: floor.normal > 0 N, do: {set: {n: n + 1}, row: true}}
+  up: {when: ball.vy > 0 m/s, do: {set: {n: n + 1}, row: true}}
+run: {until: 1 s, method: {moreau: {step: 0.5 ms}}}
+)");
+  expect_sound(w);
+  ASSERT_FALSE(w.run.impacts.empty());
+  EXPECT_GT(w.last("n [1]"), 2);
+  EXPECT_NEAR(w.run.impacts[0].impulse, (1 + e) * v, 2e-2 * v);
+  for (const Impact& impact : w.run.impacts) EXPECT_LE(impact.peak_force, most);
+  EXPECT_GT(w.run.impacts[0].peak_force, 0.98 * (1 + e) * v / step);
+  for (const double normal : w.column("floor.normal [N]")) EXPECT_LE(normal, most);
+}
+
+TEST(EventRefusal, OfADivisionByZeroNamesSignalTimeAndState) {
+  const auto ends = [](const std::string& events) {
+    return run(disc("states: {k: {rate: 0/(1 s), start: 0.5}}\nevents: {" + events + "}")).run;
+  };
+  for (const char* from : {"", "from start: false, "}) {
+    const auto at_start = ends("e: {when: 1/ball.x > 3/m, " + std::string(from) + "do: {row: true}}");
+    EXPECT_EQ(at_start.status, Status::failed) << from;
+    pintle_test::expect_says(at_start.reason, {"the event \"e\"", "not a finite number at t = 0 s", "1/ball.x > 3/m", "ball.x = 0"});
+  }
+  const auto set = ends("e: {when: t > 0.1 s, do: {set: {k: k/(k - 0.5)}}}");
+  EXPECT_EQ(set.status, Status::failed);
+  pintle_test::expect_says(set.reason, {"the event \"e\" sets k", "not a finite number at t = 0.1 s", "k/(k - 0.5)", "k = 0.5"});
+  const auto of_a_row = ends("e: {when: t > 0.1 s, do: {set: {k: rest.normal/(1 N)/(k - 0.5)}}}");
+  EXPECT_EQ(of_a_row.status, Status::failed);
+  pintle_test::expect_says(of_a_row.reason, {"the event \"e\" sets k", "rest.normal = ", "k = 0.5"});
+}
+
 TEST(EventRefusal, OfAJointThatDoesNotMeet) {
   const Whole w =
       run(disc("joints: {pin: {revolute: [ground.G, ball.C], engaged: false}}\nevents: {shut: {when: t > 0.1 s, do: {engage: pin}}}"));
@@ -155,6 +219,14 @@ TEST(EventWarning, SaysWhatNeverComesAndWhatNeverActs) {
   for (const std::string& warning : w.run.warnings) all += warning + "\n";
   EXPECT_NE(all.find("the event \"never\" never occurs"), std::string::npos) << all;
   EXPECT_NE(all.find("\"pin\" starts released, and no event engages it"), std::string::npos) << all;
+}
+
+TEST(EventWarning, NamesTheEventsThatNeverCame) {
+  const Scene s =
+      read_scene_text(disc("events: {late: {when: ball.y > 5 m, do: {row: true}}, first: {when: t > 0.1 s, once: true, do: {row: true}}, "
+                           "far: {when: ball.x > 1 m, do: {row: true}}}"),
+                      "scene.yaml");
+  EXPECT_EQ(never_came(s, run(s).run), (std::vector<std::string>{"late", "far"}));
 }
 
 }  // namespace

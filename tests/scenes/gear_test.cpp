@@ -248,6 +248,39 @@ TEST(GearInput, IsRefusedWithTheRemedy) {
   refused("{gear: [a, a], radii: [0.1, 0.2]}", 0.3, {"both ends are on \"a\""});
 }
 
+// Trains that ask two ratios of one pair of wheels, or an odd ring of wheels, stand under a torque, and are named; others are not.
+TEST(GearTrain, ThatHoldsItselfIsNamed) {
+  const std::string torque = "forces: {push: {torque: 1, on: a}}\n" + rest;
+  const auto warned = [](const std::string& scene) {
+    std::string all;
+    for (const std::string& warning : run(scene).run.warnings) all += warning + "\n";
+    return all;
+  };
+  const std::string pair = two_wheels("{gear: [a, b], radii: [0.1, 0.2]}");
+  pintle_test::expect_says(warned(pair + "  second: {gear: [a, b], radii: [0.14, 0.16]}\n" + torque),
+                           {"the couplings \"pair\" and \"second\" hold each other still", "contradict"});
+  EXPECT_EQ(warned(pair + "  second: {gear: [a, b], radii: [0.1, 0.2]}\n" + torque).find("still"), std::string::npos);
+  EXPECT_EQ(warned(pair + torque).find("still"), std::string::npos);
+  EXPECT_EQ(warned(pair + "  hold: {weld: [ground.B, b]}\n" + torque).find("still"), std::string::npos) << "held by a joint";
+
+  const std::string ring = R"(
+ground: {points: {B: [0.3, 0], C: [0.15, 0.25980762113533157]}}
+bodies:
+  a: {rigid: {mass: 1, inertia: 2e-3}}
+  b: {pose: {at: [0.3, 0]}, rigid: {mass: 1, inertia: 2e-3}}
+  c: {pose: {at: [0.15, 0.25980762113533157]}, rigid: {mass: 1, inertia: 2e-3}}
+joints:
+  ja: {revolute: [ground, a]}
+  jb: {revolute: [ground.B, b]}
+  jc: {revolute: [ground.C, c]}
+  ab: {gear: [a, b], radii: [0.15, 0.15]}
+  bc: {gear: [b, c], radii: [0.15, 0.15]}
+)";
+  pintle_test::expect_says(warned(ring + "  ca: {gear: [c, a], radii: [0.15, 0.15]}\n" + torque),
+                           {"the couplings \"ab\", \"bc\" and \"ca\" hold each other still"});
+  EXPECT_EQ(warned(ring + torque).find("still"), std::string::npos);
+}
+
 // Trains that ask two ratios of one pair of wheels, and are driven: what contradicts what is named, at speeds and at accelerations.
 TEST(GearInput, NamesTheCouplingsOfATrainThatContradictsItself) {
   const std::string triangle =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <variant>
 #include <vector>
@@ -82,6 +83,15 @@ void warn_of_stiffness(const Scene& scene, const Model& model, double share, Run
   const std::string& fast = model.scheme.stiff;
   run.warnings.push_back("stability, not accuracy, held " + number_text(std::round(100 * share)) + " % of the explicit steps" +
                          (fast.empty() ? "" : "; what decays fastest is " + fast) + ": " + remedy);
+}
+
+std::vector<std::string> never_came(const Scene& scene, const Run& run) {
+  std::set<std::string> came;
+  for (const Happening& h : run.happenings) came.insert(h.event);
+  std::vector<std::string> out;
+  for (const SceneEvent& event : scene.events)
+    if (!came.contains(event.name)) out.push_back(event.name);
+  return out;
 }
 
 }  // namespace pintle

@@ -15,5 +15,7 @@ void warn_of_pushing(const System&, Run&);
 void warn_of_lifting(const System&, Run&);
 /// Explicit steps that stability held, not accuracy, and what would do with fewer. @param share  of the steps
 void warn_of_stiffness(const Scene&, const Model&, double share, Run&);
+/// Events of the scene that have not come in the run so far.
+std::vector<std::string> never_came(const Scene&, const Run&);
 
 }  // namespace pintle

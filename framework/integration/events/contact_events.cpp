@@ -19,7 +19,7 @@ constexpr double part_pressed = 1e-9;  // relative to the greatest force of rigi
 }  // namespace
 
 ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
-    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), time_stepping_(scheme.fixed_step > 0), log_(system) {
+    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), fixed_step_(scheme.fixed_step), log_(system) {
   for (int c = 0; c < contacts(); ++c) {
     const ContactPair& pair = system.contacts[at(c)];
     if (pair.profiles && (std::isfinite(pair.gap.a.half) || std::isfinite(pair.gap.b.half))) leaving_.push_back(c);
@@ -41,7 +41,7 @@ bool ContactEvents::continues_another(int contact) const {
 WatchedGuard ContactEvents::watch(int event) const {
   const int leaves = leaving(event), contact = leaves < 0 ? event : leaves;
   const ContactPair& pair = system_.contacts[at(contact)];
-  if (is_held(pair) || time_stepping_) return {};
+  if (is_held(pair) || time_stepping()) return {};
   const double zero = is_rigid(pair) ? pair.slack : 1e-9 * fine_length(pair, system_.length);
   if (leaves >= 0) return {.direction = log_.touching(contact) ? Direction::falling : Direction::none, .zero = zero, .at_once = true};
   if (log_.touching(contact) && is_rigid(pair)) return {.direction = Direction::falling, .zero = part_pressed, .at_once = true};
@@ -137,7 +137,7 @@ bool ContactEvents::met(int event, const Guard& gap) const {
 
 // A start with overlap has no approach speed. It gets that of the impact that would reach this depth.
 void ContactEvents::start(Step& step) {
-  if (time_stepping_) return;
+  if (time_stepping()) return;
   std::vector<int> rigid;
   for (int c = 0; c < contacts(); ++c) {
     if (is_rigid(system_.contacts[at(c)])) {
@@ -154,7 +154,7 @@ void ContactEvents::start(Step& step) {
 // Provides the reference force for the first step too.
 void ContactEvents::begin_step(const State& from) {
   for (int c = 0; c < contacts(); ++c)
-    if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping_)
+    if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping())
       most_pressed_ = std::max(most_pressed_, std::abs(from.friction[at(c)].load));
 }
 
@@ -165,7 +165,12 @@ void ContactEvents::write_down(Step& step) {
     const bool closed = state.impact_rate[at(c)] > 0, before = log_.touching(c);
     if (closed && !before)
       log_.begin(c, step.from.state, gap_of(system_, c, state), step.from.state.t + step.h / 2, state.impact_rate[at(c)]);
-    if (closed) log_.strike({.contact = c, .approach = 0, .separation = 0, .impulse = state.friction[at(c)].load * step.h}, state);
+    if (closed && step.h > 0)
+      log_.strike({.contact = c,
+                   .approach = 0,
+                   .separation = 0,
+                   .impulse = state.friction[at(c)].load * time_of_force(system_, c, step.from.state, step.h, fixed_step_)},
+                  state);
     if (!closed && before) log_.end(c, step.from.state.t, -gap_of(system_, c, step.from.state).rate);
   }
 }
@@ -183,10 +188,10 @@ double fastest(const System& system, int contact, const Step& step, const Guard&
 }  // namespace
 
 void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
-  if (time_stepping_) write_down(step);
+  if (time_stepping()) write_down(step);
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
-    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping_) continue;
+    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping()) continue;
     if (step.h > 0 && step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
     most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
   }

@@ -40,6 +40,7 @@ class ContactEvents final : public EventGroup {
   EventOutcome strike(std::vector<int> touching, Step&);
   EventOutcome part(int contact, Step&);
   Guard pressed(int contact, const State&) const;
+  bool time_stepping() const { return fixed_step_ > 0; }
   void write_down(Step&);
   bool touches(int contact, const State&) const;
   void begin(int contact, Step&, double rate);
@@ -50,7 +51,7 @@ class ContactEvents final : public EventGroup {
 
   const System& system_;
   double tolerance_, onset_cut_;
-  bool time_stepping_;        ///< the scheme handles impacts: they are logged, but are not events
+  double fixed_step_;         ///< of time-stepping, whose impacts are the scheme's: they are written down, but no events; else 0 [s]
   std::vector<int> leaving_;  ///< pairs with pieces of finite extent
   ImpactLog log_;
   double most_pressed_ = 0;        ///< of the rigid contacts so far [N]

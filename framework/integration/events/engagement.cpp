@@ -35,6 +35,20 @@ double stored(const System& system, const Switch& s, const Equations& eq) {
   return sum;
 }
 
+// What a contact that is engaged where its surfaces overlap holds in store: its event begins it at this instant, as an impact that has
+// come so deep.
+double stored_at_onset(const System& system, const Switch& s, const State& state) {
+  double sum = 0;
+  for (int c = s.index; s.of == Switch::contact && c < s.index + system.contacts[at(s.index)].pairs; ++c) {
+    const ContactPair& pair = system.contacts[at(c)];
+    if (is_rigid(pair) || !(onset_of(system, c, state).value > 0)) continue;
+    const Guard gap = gap_of(system, c, state);
+    const double latched = std::max({gap.rate, pair.slowest_impact, pair.profiles ? latched_at(system, pair, gap.value) : 0});
+    sum += evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).stored;
+  }
+  return sum;
+}
+
 void evaluate_forces(const System& system, const State& state, Equations& eq) {
   pose(system, state.t, state.y, eq);
   update_mass(system, state.y, eq);
@@ -189,7 +203,10 @@ Engagement switch_over(const System& system, std::span<const SwitchOver> asked, 
   for (std::size_t k = 0; k < state.friction.size(); ++k)  // whether it slides or sticks is decided again
     if (k >= system.contacts.size() || state.impact_rate[k] > 0) state.friction[k] = {};
   evaluate_forces(system, state, eq);
-  for (const SwitchOver& one : changes) lost(system, one.at, state.y) -= stored(system, system.switches[at(one.at)], eq);
+  for (const SwitchOver& one : changes) {
+    const Switch& s = system.switches[at(one.at)];
+    lost(system, one.at, state.y) -= stored(system, s, eq) + stored_at_onset(system, s, state);
+  }
   return out;
 }
 

@@ -198,6 +198,15 @@ Guard onset_of(const System& system, int contact, const State& state) {
   return out;
 }
 
+bool was_pressed(const System& system, int contact, const State& from) {
+  const auto pressed = [&](int c) { return c >= 0 && from.impact_rate[at(c)] > 0; };
+  return pressed(contact) || std::ranges::any_of(system.contacts[at(contact)].beyond, pressed);
+}
+
+double time_of_force(const System& system, int contact, const State& from, double h, double fixed_step) {
+  return h > short_part * fixed_step && was_pressed(system, contact, from) ? h : fixed_step;
+}
+
 int parts_to_look_at(const System& system, int contact, const Step& step) {
   constexpr double faster = 2, least = 16, most = 4096;
   const ContactPair& pair = system.contacts[at(contact)];

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of its largest value: when it is located, when it is zero
 constexpr double guard_still = 1e-10;                         // … and within which it has not moved
+constexpr double guard_ahead = 1e-5;                          // so far a motion is led on to see whether it leaves zero [s]
 
 }  // namespace
 
@@ -34,7 +35,7 @@ Guard SceneEvents::all_of(int event, const State& state) const {
   const auto& when = rules_[at(event)].when;
   for (std::size_t k = 0; k < when.size(); ++k) {
     Guard now = when[k].difference(system_, state, {.rate = true});
-    if (std::isnan(now.value)) return now;
+    if (!std::isfinite(now.value)) return {std::numeric_limits<double>::quiet_NaN()};
     if (const double size = size_[first_[at(event)] + k]; size > 0) now.value /= size, now.rate /= size;
     if (now.value < least.value) least = now;
   }
@@ -62,15 +63,49 @@ bool SceneEvents::holds(int event, const State& state) const {
   return true;
 }
 
-// Judged by the initial motion.
-bool SceneEvents::rises(int event, const Instant& from) const {
-  constexpr double dt = 1e-5;
+State SceneEvents::extrapolated(const Instant& from, double dt) const {
   const Eigen::Index n = system_.n();
   State next = from.state;
   next.t += dt;
   next.y += dt * from.dy;
   next.y.head(n) += dt * dt / 2 * from.dy.segment(n, n);
-  return all_of(event, next).value > std::max(guard_near, all_of(event, from.state).value);
+  return next;
+}
+
+// By what the motion starts with.
+bool SceneEvents::rises(int event, const Instant& from) const {
+  return all_of(event, extrapolated(from, guard_ahead)).value > std::max(guard_near, all_of(event, from.state).value);
+}
+
+// What is at zero there is as it is written, in most conditions whatever the state is.
+bool SceneEvents::true_at_zero(int event, const State& state) const {
+  const auto& when = rules_[at(event)].when;
+  const auto equal = std::ranges::count(when, true, &SceneComparison::at_zero);
+  return equal == std::ssize(when) || (equal > 0 && holds(event, state));
+}
+
+bool SceneEvents::on_zero(int event, const State& state) const { return std::abs(all_of(event, state).value) <= guard_near; }
+
+// At this end of the step, in the part of it that is next to that, and where the motion would lead from there: not in passing.
+bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion, bool at_end) const {
+  constexpr double part = 0.125, ahead = 1e-3;
+  const double beside = at_end ? step.to.state.t - part * step.h : step.from.state.t + part * step.h;
+  return on_zero(event, motion.at(beside)) &&
+         on_zero(event, extrapolated(at_end ? step.to : step.from, std::max(guard_ahead, ahead * step.h)));
+}
+
+// What stands at zero is true or false there as it is written: so the zero to be passed moves to the side from which it has come.
+void SceneEvents::settle(int event, const Step& step, const DenseOutput& motion, Guard& from, Guard& to) {
+  if (waits_[at(event)] == Waits::no_more || !(step.h > 0)) return;
+  double& shift = shift_[at(event)];
+  const double aside = believed(event) ? -2 * guard_near : 2 * guard_near;
+  const auto differs = [&](const Guard& guard, bool at_end) {
+    return std::abs(guard.value - shift) <= guard_near && true_at_zero(event, (at_end ? step.to : step.from).state) != believed(event) &&
+           stands(event, step, motion, at_end);
+  };
+  if (shift == aside || !(differs(to, true) || differs(from, false))) return;
+  from.value += aside - shift, to.value += aside - shift;
+  shift = aside;
 }
 
 // The size of a comparison is the largest so far of what it compares, or what that would be if everything moved as fast as the fastest:
@@ -180,7 +215,7 @@ void SceneEvents::start(Step& step) {
       if (on_level && is_true) shift_[at(event)] = 2 * guard_near - now;
     } else if (is_true || (on_level && rises(event, step.to))) {
       waits_[at(event)] = Waits::for_false;
-      if (on_level) shift_[at(event)] = 2 * guard_near;
+      if (on_level || true_at_zero(event, step.to.state)) shift_[at(event)] = 2 * guard_near;
     }
   }
 }
@@ -212,6 +247,7 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
     const double now = all_of(other, step.to.state).value;
     const double before = step.h > 0 ? all_of(other, step.from.state).value : now;
     if (!(std::abs(now) <= 4 * guard_near && before - now > guard_near)) continue;
+    if (true_at_zero(other, step.to.state) && on_zero(other, extrapolated(step.to, guard_ahead))) continue;  // it comes to stand there
     if (rules_[at(other)].otherwise.empty())
       waits_[at(other)] = Waits::for_true, shift_[at(other)] = -2 * guard_near;
     else
@@ -224,9 +260,10 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
 void SceneEvents::decide_on_level(const std::vector<double>& before, const State& state) {
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value;
+    if (now == before[at(event)]) continue;
     if (waits_[at(event)] == Waits::for_false && rules_[at(event)].otherwise.empty() && now < -guard_near)
       waits_[at(event)] = Waits::for_true, shift_[at(event)] = 0;
-    if (now == before[at(event)] || !(std::abs(now) <= guard_near) || waits_[at(event)] == Waits::no_more) continue;
+    if (!(std::abs(now) <= guard_near) || waits_[at(event)] == Waits::no_more) continue;
     const bool is_true = holds(event, state);
     if (is_true == (waits_[at(event)] == Waits::for_true))
       shift_[at(event)] = (is_true ? 2 : -2) * guard_near - now;
@@ -273,7 +310,7 @@ bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& s
 EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   const SceneEventRule& rule = rules_[at(event)];
   for (const SceneComparison& one : rule.when) {
-    if (!std::isnan(one.difference(system_, step.to.state, {}).value)) continue;
+    if (std::isfinite(one.difference(system_, step.to.state, {}).value)) continue;
     EventOutcome none;
     none.failure = "the condition of the event " + quoted(rule.name) + " is not a finite number at t = " + number_text(step.to.state.t, 9) +
                    " s" + (one.seen ? one.seen(system_, step.to.state) : "");
@@ -299,7 +336,9 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
     if (const auto* set = std::get_if<SetState>(&action)) {
       set->set(system_, seen, state);
       if (!state.y.allFinite()) {
-        out.failure = "the event " + quoted(rule.name) + " sets " + set->name + " to what is not a finite number";
+        out.failure = "the event " + quoted(rule.name) + " sets " + set->name +
+                      " to what is not a finite number at t = " + number_text(state.t, 9) + " s" +
+                      (set->seen ? set->seen(system_, seen) : "");
         return out;
       }
       out.change = std::max(out.change, EventOutcome::Change::jump);

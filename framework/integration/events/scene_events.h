@@ -19,6 +19,7 @@ struct StopRun {
 struct SetState {
   std::string name;
   std::function<void(const System&, const State& seen, State&)> set;
+  std::function<std::string(const System&, const State&)> seen = {};  ///< what it is told from there, in words
 };
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
@@ -61,6 +62,7 @@ class SceneEvents final : public EventGroup {
   Guard guard(int event, const State&) const override;
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  void settle(int event, const Step&, const DenseOutput&, Guard& from, Guard& to) override;
   bool comes_at_zero(int event, const State&) const override;
   bool met(int event, const Guard&) const override;
   bool hardly_left(int event, const Step&, const DenseOutput&) const override;
@@ -75,11 +77,16 @@ class SceneEvents final : public EventGroup {
  private:
   /// What an event waits for: to become true or, after acting, false; or nothing any more.
   enum class Waits : unsigned char { for_true, for_false, no_more };
+  bool believed(int event) const { return waits_[static_cast<std::size_t>(event)] == Waits::for_false; }
   Guard all_of(int event, const State&) const;
   /// Each comparison relative to its size; if wanted, also its kinks. @returns the smallest of them
   double look(int event, const State&, std::vector<double>& out, bool with_kinks = false) const;
   bool holds(int event, const State&) const;
+  State extrapolated(const Instant&, double dt) const;
   bool rises(int event, const Instant&) const;
+  bool true_at_zero(int event, const State&) const;
+  bool on_zero(int event, const State&) const;
+  bool stands(int event, const Step&, const DenseOutput&, bool at_end) const;
   void see(const State&);
   void rearm_beside(int event, const Step&);
   void decide_on_level(const std::vector<double>& before, const State&);

@@ -27,15 +27,9 @@ MiddleContacts::MiddleContacts(const System& system)
 void MiddleContacts::look(const State& from, const State& middle, double h) {
   passed_ = -1;
   for (int c = 0; c < static_cast<int>(now_.size()); ++c) {
-    goes_on_[at(c)] = continues(c, from);
+    goes_on_[at(c)] = was_pressed(system_, c, from);
     now_[at(c)] = look(c, middle, h);
   }
-}
-
-// This pair, or one that the contact comes from, was under load in the step before.
-bool MiddleContacts::continues(int c, const State& from) const {
-  const auto pressed = [&](int contact) { return contact >= 0 && from.impact_rate[at(contact)] > 0; };
-  return pressed(c) || std::ranges::any_of(system_.contacts[at(c)].beyond, pressed);
 }
 
 bool MiddleContacts::look(int c, const State& middle, double h) {

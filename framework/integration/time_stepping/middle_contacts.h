@@ -33,7 +33,6 @@ class MiddleContacts {
 
  private:
   bool look(int contact, const State& middle, double h);
-  bool continues(int contact, const State& from) const;
   bool is_held_elsewhere(int contact) const;
 
   const System& system_;

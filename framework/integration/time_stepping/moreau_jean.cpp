@@ -134,7 +134,8 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
     }
     if (!(after[k.normal] > rounding * std::abs(before[k.normal]))) left_[c] = contacts_.goes_on(c) ? h * std::abs(turning[k.normal]) : 0;
     to.impact_rate[c] = std::max(-before[k.normal], system_.contacts[c].slowest_impact);
-    to.friction[c] = {DryFriction::given, k.tangent >= 0 ? (*x)[k.tangent] / h : 0, (*x)[k.normal] / h};
+    const double over = time_of_force(system_, closed.contact[i], from, h, traits_.fixed_step);
+    to.friction[c] = {DryFriction::given, k.tangent >= 0 ? (*x)[k.tangent] / over : 0, (*x)[k.normal] / over};
   }
   return true;
 }
