@@ -31,6 +31,11 @@ namespace {
       (is_unit && vocabulary.signals ? " Did you mean the unit \"" + near + "\"?" : did_you_mean(name, near.empty() ? known : all)));
 }
 
+constexpr std::string_view set_by_an_event =
+    " is a parameter that an event sets, and this value is made once, before the run; laws of forces and springs, rates, outputs and "
+    "conditions may "
+    "follow it: write such a law here, or take another parameter";
+
 int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formula& formula);
 
 // What a name stands for, as a part of the formula.
@@ -74,7 +79,10 @@ int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
     return formula.input(name, signal.dimension);
   }
   if (name == known.variable) return formula.time();
-  if (const auto found = known.parameters.find(name); found != known.parameters.end()) return formula.constant(found->second);
+  if (const auto found = known.parameters.find(name); found != known.parameters.end()) {
+    if (found->second.varies) throw ExpressionError(name + std::string(set_by_an_event));
+    return formula.constant(found->second);
+  }
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
   unknown(name, known);

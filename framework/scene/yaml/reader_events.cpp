@@ -34,8 +34,13 @@ std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const 
     if (std::ranges::find(scene.states, name, &SceneState::name) == scene.states.end()) {
       std::vector<std::string> known;
       for (const SceneState& s : scene.states) known.push_back(s.name);
+      for (const auto& [parameter, value] : scene.parameters) known.push_back(parameter);
+      if (const Scope* own = node.source().scope(node.yaml().scope); own && own->own.contains(node.name()))
+        node.fail("\"" + node.name() +
+                  "\" is a parameter of the assembly, and the scene's alone can be set; make it a state of the assembly: states: {" +
+                  node.name() + "_now: {rate: 0, start: " + node.name() + "}}");
       node.fail(
-          "there is no state \"" + node.name() + "\"" +
+          "there is no state \"" + node.name() + "\", and no parameter" +
           (known.empty() ? "; add one under states: {" + node.name() + ": {rate: 0, start: 0}}" : "." + did_you_mean(node.name(), known)));
     }
     out.emplace_back(name, read_event_law(node, names.find(name)->second.dimension, names));

@@ -252,6 +252,7 @@ void read_state_rates(const Node& root, Scene& scene) {
     return *std::ranges::find_if(entries, [&](const Node& node) { return node.place().key == place.key; });
   };
   for (SceneState& state : scene.states) {
+    if (state.place.key.starts_with("parameters.")) continue;
     const Node node = entry(state.place);
     const Dimension rate = product(names.find(state.name)->second.dimension, dimension::rate);
     state.rate = node.has("rate") ? read_rate(node.at("rate"), rate, scene, names) : made(node, state.rate.text, rate);
