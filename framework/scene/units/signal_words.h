@@ -30,11 +30,13 @@ struct SignalWord {
     state,           ///< `index` among the scene's
     output,          ///< likewise
     column,          ///< of trajectory.csv: what the accelerations decide
+    power,           ///< that it puts into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
   };
   What what;
   Dimension dimension;
   PointRef a = {}, b = {};
   int index = 0;
+  std::string text = {};
 };
 
 /// Every signal of a scene, in its present form: more are known as more of it is read.

@@ -175,7 +175,8 @@ void Speller::refuse_dotted() const {
   const std::string name(word);
   if (!known_.signals) fail("\"" + name + "\" changes with the motion, but this value cannot: write numbers, units and parameters");
   std::vector<std::string> names;
-  for (const auto& [known, what] : *known_.signals) names.push_back(known);
+  for (const auto& [known, what] : *known_.signals)
+    if (what.refused.empty()) names.push_back(known);
   std::string hint = did_you_mean(name, names);
   constexpr std::size_t most = 300;
   if (hint.size() > most) hint = " Signals are written owner.column, as trajectory.csv does: crank.angle, slider.P.vx, coil.length";
