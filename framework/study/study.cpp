@@ -125,7 +125,6 @@ std::vector<Measure> read_curves(const StudyFile& file) {
   if (!file.root().has("keep")) return out;
   const Node keep = file.root().at("keep");
   const Question& question = file.study.scene.question;
-  if (!file.study.scene.situations.empty()) keep.fail("leaves curves of one situation; leave out situations, or sweep what they set");
   if (!over_time(question)) keep.fail("is of analyses over time, run, kinematics and inverse; leave it out, each case has one state here");
   for (const Node& entry : keep.list(1, "a list of quantities such as [x of slider, force at crank pin]")) {
     const std::string words = entry.text("a quantity such as x of slider or force at crank pin");
