@@ -60,6 +60,15 @@ void print(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& a
   print_rows(std::cout, rows);
 }
 
+// A measure that no case has is no result.
+bool has_values(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& all) {
+  bool out = true;
+  for (const MeasureSensitivity& m : all)
+    if (std::isnan(m.nominal))
+      std::cerr << plan.sweep.study.file << ": " << m.header << ": the case without deviations has no value\n", out = false;
+  return out;
+}
+
 }  // namespace
 
 int sensitivity(const Options& options) {
@@ -85,7 +94,14 @@ int sensitivity(const Options& options) {
     std::cout << sensitivity_json(plan, all);
   else if (!options.quiet)
     print(plan, all, end, out);
-  if (std::ranges::any_of(end.rows, [](const Row& r) { return r.status == "finished"; })) return ok;
+  const auto ran = [](const Row& r) { return r.status == "finished"; };
+  if (std::ranges::all_of(end.rows, ran)) return has_values(plan, all) ? ok : run_failed;
+  if (const auto lost = std::ranges::find_if_not(end.rows, ran); std::ranges::any_of(end.rows, ran)) {
+    std::cerr << plan.sweep.study.file << ": " << std::ranges::count_if(end.rows, [&](const Row& r) { return !ran(r); }) << " of "
+              << end.rows.size() << " cases did not run to their end, and no number counts them; case " << lost->number << ": "
+              << lost->status << ": " << lost->reason << "\n";
+    return run_failed;
+  }
   std::cerr << plan.sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case 1: " << end.rows.front().status
             << ": " << end.rows.front().reason << "\n";
   return run_failed;

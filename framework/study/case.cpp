@@ -142,7 +142,7 @@ void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure
   take_over(out, *run);
   if (timed.over) out.status = "over its limit", out.reason = "stopped after " + std::to_string(out.run_seconds) + " s of computing";
   if (!limits.time_alone) measure(source, measures, scene, model, *run, out);
-  if (limits.curves && !limits.curves->empty()) out.curves = curves_csv(*limits.curves, scene, model, *run);
+  if (limits.curves && !limits.curves->empty()) out.curves[""] = curves_csv(*limits.curves, scene, model, *run);
   if (limits.keep_run) out.run = std::move(run);
 }
 
@@ -251,6 +251,7 @@ Outcome one_outcome(const CaseSource& source, const Overrides& overrides, const 
 /// Adds the result of one of several situations to a case.
 void merge(Outcome& whole, const Outcome& part, const std::vector<std::size_t>& places, const std::string& situation) {
   for (std::size_t i = 0; i < places.size(); ++i) whole.values[places[i]] = part.values[i], whole.units[places[i]] = part.units[i];
+  for (const auto& [none, curves] : part.curves) whole.curves[situation] = curves;
   whole.build_seconds += part.build_seconds, whole.run_seconds += part.run_seconds;
   whole.t_end = whole.status.empty() ? part.t_end : std::min(whole.t_end, part.t_end);
   whole.counts.steps += part.counts.steps, whole.impacts += part.impacts;
@@ -276,7 +277,8 @@ Outcome run_case(const CaseSource& source, const Overrides& overrides, const std
       if (measures[i].situation == s) here.push_back(measures[i]), places.push_back(i);
     Overrides set = overrides;
     set.insert(set.end(), source.situations[s].set.begin(), source.situations[s].set.end());
-    if (!here.empty()) merge(whole, one_outcome(source, set, here, limits), places, source.situations[s].name);
+    const bool asked = !here.empty() || (limits.curves && !limits.curves->empty());
+    if (asked) merge(whole, one_outcome(source, set, here, limits), places, source.situations[s].name);
   }
   return whole;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,9 +46,10 @@ struct Outcome {
   double run_seconds = 0;          ///< simulating
   double t_end = 0;                ///< reached [s]
   Counts counts;
-  long impacts = 0;                ///< of all clearances
-  double unexplained_share = 0;    ///< largest, relative to the energy in play
-  std::string curves = {};         ///< a CSV file: time, and a column for each requested curve
+  long impacts = 0;              ///< of all clearances
+  double unexplained_share = 0;  ///< of the energy in play, at worst
+  std::map<std::string, std::string> curves =
+      {};                          ///< by situation, "" without any, a CSV file: time, and a column for each curve asked for
   std::shared_ptr<const Run> run;  ///< kept if requested; none for modal analyses
 };
 

@@ -126,7 +126,6 @@ std::vector<Measure> read_curves(const StudyFile& file) {
   if (!file.root().has("keep")) return out;
   const Node keep = file.root().at("keep");
   const Question& question = file.study.scene.question;
-  if (!file.study.scene.situations.empty()) keep.fail("supports one situation only; leave out situations, or sweep what they set");
   if (!over_time(question))
     keep.fail("is for analyses over time (run, kinematics and inverse); leave it out: here each case has one state");
   for (const Node& entry : keep.list(1, "a list of quantities such as [x of slider, force at crank pin]")) {

@@ -31,16 +31,58 @@ namespace {
       (is_unit && vocabulary.signals ? " Did you mean the unit \"" + near + "\"?" : did_you_mean(name, near.empty() ? known : all)));
 }
 
+constexpr std::string_view set_by_an_event =
+    " is a parameter that an event sets, and this value is made once, before the run; laws of forces and springs, rates, outputs and "
+    "conditions may "
+    "follow it: write such a law here, or take another parameter";
+
+int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formula& formula);
+
+// What a name stands for, as a part of the formula.
+int part_of(const Word& word, const std::string& stands_for, const Vocabulary& known, Formula& formula) {
+  constexpr int most_within = 30;
+  Vocabulary within = known;
+  if (++within.within > most_within)
+    throw ExpressionError(word.text + " would follow from itself: let what it follows from name states or signals in its place");
+  const std::vector<Word> words = spell(stands_for, within);
+  return build(parse(words), within, formula);
+}
+
+// The text with the expressions that names stand for in their place, so that it can be read where these names are not known.
+std::string written_out(std::string_view text, const std::vector<Word>& words, const Vocabulary& known) {
+  std::string out;
+  const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  std::size_t place = 0;
+  auto word = words.begin();
+  while (!text.empty()) {
+    if (!goes_on(text.front())) ++place;
+    while (word != words.end() && word->at < place) ++word;
+    const bool begins = word != words.end() && word->at == place && word->kind == Word::Kind::signal && text.starts_with(word->text);
+    const std::string stands_for = begins ? known.signals->find(word->text)->second.stands_for : "";
+    if (stands_for.empty()) {
+      out += text.front(), text.remove_prefix(1);
+    } else {
+      out += "(" + written_out(stands_for, spell(stands_for, known), known) + ")";
+      place += word->text.size() - 1, text.remove_prefix(word->text.size());
+    }
+  }
+  return out;
+}
+
 int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   const std::string& name = word.text;
   if (word.kind == Word::Kind::number) return formula.constant({word.value, {}});
   if (word.kind == Word::Kind::signal) {
     const SignalName& signal = known.signals->find(name)->second;
     if (!signal.refused.empty()) throw ExpressionError(name + " " + signal.refused);
+    if (!signal.stands_for.empty()) return part_of(word, signal.stands_for, known, formula);
     return formula.input(name, signal.dimension);
   }
   if (name == known.variable) return formula.time();
-  if (const auto found = known.parameters.find(name); found != known.parameters.end()) return formula.constant(found->second);
+  if (const auto found = known.parameters.find(name); found != known.parameters.end()) {
+    if (found->second.varies) throw ExpressionError(name + std::string(set_by_an_event));
+    return formula.constant(found->second);
+  }
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
   unknown(name, known);
@@ -157,12 +199,17 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
     const Vocabulary known{parameters, {}, signals};
     const std::vector<Word> words = spell(text, known);
     const std::vector<FormulaStep> steps = parse(words);
+    const auto read = [&](const Dimension& of_time) {
+      Law law = law_with(steps, text, of_time, expected, known);
+      if (!law.signals.empty()) law.text = written_out(text, words, known);
+      return law;
+    };
     try {
-      return law_with(steps, text, dimension::time, expected, known);
+      return read(dimension::time);
     } catch (const ExpressionError& error) {
       if (!contains_time(words)) throw;
       try {
-        return law_with(steps, text, dimension::number, expected, known);
+        return read(dimension::number);
       } catch (const ExpressionError&) {
         throw ExpressionError(std::string(error.what()) + " (t is a time; give every factor of t its unit, or none)", error.at);
       }
@@ -178,7 +225,9 @@ MeasuredLaw read_measured_law(std::string_view text, const Parameters& parameter
     const std::vector<Word> words = spell(text, known);
     Formula formula(dimension::time);
     const int root = build(parse(words), known, formula);
-    return {law_from(formula, root, text), formula.quantity(root).dimension};
+    Law law = law_from(formula, root, text);
+    if (!law.signals.empty()) law.text = written_out(text, words, known);
+    return {std::move(law), formula.quantity(root).dimension};
   } catch (const ExpressionError& error) {
     refuse(text, error);
   }

@@ -18,7 +18,8 @@ struct ExpressionError : std::runtime_error {
 /// A number with its dimension; SI.
 struct Quantity {
   double value = 0;
-  Dimension dimension;
+  Dimension dimension = {};
+  bool varies = false;  ///< of a parameter that an event sets: this is what it starts with
 };
 
 enum class Op : unsigned char {

@@ -30,11 +30,13 @@ struct SignalWord {
     state,           ///< `index` among the scene's own states
     output,          ///< likewise
     column,          ///< of trajectory.csv: quantities that depend on the accelerations
+    power,           ///< that it puts into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
   };
   What what;
   Dimension dimension;
   PointRef a = {}, b = {};
   int index = 0;
+  std::string text = {};
 };
 
 /// All signals of a scene as read so far: more are known as more of it is read.

@@ -197,7 +197,8 @@ void Speller::refuse_dotted() const {
   const std::string name(word);
   if (!known_.signals) fail("\"" + name + "\" changes with the motion, but this value cannot: write numbers, units and parameters");
   std::vector<std::string> names;
-  for (const auto& [known, what] : *known_.signals) names.push_back(known);
+  for (const auto& [known, what] : *known_.signals)
+    if (what.refused.empty()) names.push_back(known);
   const std::string owner = name.substr(0, name.rfind('.') + 1);
   const std::vector<std::string> columns = columns_of(names, owner);
   std::string hint = columns.empty() ? did_you_mean(name, names) : hint_of(owner, name.substr(owner.size()), columns);

@@ -269,7 +269,8 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   Json& forces = out["forces"] = Json::object();
   for (const SceneLoad& l : scene.loads)
     append(forces, l.name, with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged));
-  for (const SceneState& s : scene.states) append(out["states"], s.name, json(s));
+  for (const SceneState& s : scene.states)
+    if (!s.place.key.starts_with("parameters.")) append(out["states"], s.name, json(s));
   for (const SceneOutput& o : scene.outputs) append(out["outputs"], o.name, json(o.law));
   for (const SceneEvent& e : scene.events) append(out["events"], e.name, json(e));
   out["start"] = starts(scene);

@@ -1,7 +1,9 @@
 #include "framework/scene/yaml/reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 #include "framework/common/nearest.h"
 #include "framework/scene/text_file.h"
@@ -31,10 +33,34 @@ Quantity overridden(const std::string& name, const std::string& text, const Quan
   }
 }
 
+// Names that events set, of the scene and of its assemblies, but those that an assembly has of its own.
+void set_by_events(const Yaml& level, std::set<std::string>& names) {
+  const auto item = [](const Yaml& of, std::string_view key) {
+    const auto found = std::ranges::find(of.items, key, &Yaml::key);
+    return found == of.items.end() ? nullptr : &*found;
+  };
+  if (const Yaml* events = item(level, "events"))
+    for (const Yaml& event : events->items)
+      for (const Yaml& doing : event.items)
+        if (const Yaml* set = doing.kind == Yaml::Kind::map ? item(doing, "set") : nullptr)
+          for (const Yaml& one : set->items) names.insert(one.key);
+  if (const Yaml* assemblies = item(level, "assemblies"))
+    for (const Yaml& assembly : assemblies->items) {
+      std::set<std::string> inner;
+      set_by_events(assembly, inner);
+      for (const char* own : {"parameters", "states"})
+        if (const Yaml* group = item(assembly, own))
+          for (const Yaml& one : group->items) inner.erase(one.key);
+      names.merge(inner);
+    }
+}
+
 void read_parameters(const Node& root, const Overrides& overrides, Source& source, Scene& scene) {
   std::map<std::string, std::string> set;
   for (const auto& [name, text] : overrides) set[name] = text;
   std::vector<std::string> all;
+  std::set<std::string> varying;
+  set_by_events(root.yaml(), varying);
   if (root.has("parameters")) {
     const Node group = root.at("parameters");
     const std::vector<Node> entries = group.entries("names and values: {clearance: 0.1 mm}");
@@ -43,6 +69,7 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
       const std::string name = node.name();
       Quantity q = read_parameter(node, all);
       if (const auto found = set.find(name); found != set.end()) q = overridden(name, found->second, q, source);
+      q.varies = varying.contains(name);
       source.parameters[name] = q;
       scene.parameters.emplace_back(name, q.value);
     }
@@ -52,6 +79,23 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
       throw SceneError(source.file, {0, "--set " + name},
                        all.empty() ? "the scene has no parameters; name one under parameters, or any key by its path: run.until"
                                    : "the scene has no such parameter." + did_you_mean(name, all));
+}
+
+// A parameter that events set is a state without a rate for what may follow it, and no number for all else.
+void make_parameters_states(const Source& source, Scene& scene) {
+  for (const auto& [name, value] : scene.parameters) {
+    const Quantity& q = source.parameters.find(name)->second;
+    if (!q.varies) continue;
+    scene.states.push_back({.name = name,
+                            .rate = {[](double) {
+                                       return Jet{0, 0, 0};
+                                     },
+                                     "0", true},
+                            .start = value,
+                            .scale = value == 0 ? 1 : std::abs(value),
+                            .unit = si_unit(q.dimension),
+                            .place = {0, "parameters." + name}});
+  }
 }
 
 void require_text(const std::string& file, const Overrides& overrides) {
@@ -91,6 +135,7 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_joints(root, scene);
   read_contacts(root, scene);
   read_drivers(root, folder, scene);
+  make_parameters_states(source, scene);
   read_states(root, scene);
   read_forces(root, folder, scene);
   read_state_rates(root, scene);

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <initializer_list>
+#include <numbers>
 
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 #include "framework/scene/units/guard.h"
 #include "framework/scene/units/program_parts.h"
 #include "framework/scene/units/signal_law.h"
@@ -34,8 +37,13 @@ std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const 
     if (std::ranges::find(scene.states, name, &SceneState::name) == scene.states.end()) {
       std::vector<std::string> known;
       for (const SceneState& s : scene.states) known.push_back(s.name);
+      for (const auto& [parameter, value] : scene.parameters) known.push_back(parameter);
+      if (const Scope* own = node.source().scope(node.yaml().scope); own && own->own.contains(node.name()))
+        node.fail("\"" + node.name() +
+                  "\" is a parameter of the assembly, and the scene's alone can be set; make it a state of the assembly: states: {" +
+                  node.name() + "_now: {rate: 0, start: " + node.name() + "}}");
       node.fail(
-          "there is no state \"" + node.name() + "\"" +
+          "there is no state \"" + node.name() + "\", and no parameter" +
           (known.empty() ? "; add one under states: {" + node.name() + ": {rate: 0, start: 0}}" : "." + did_you_mean(node.name(), known)));
     }
     out.emplace_back(name, read_event_law(node, names.find(name)->second.dimension, names));
@@ -84,6 +92,32 @@ std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
   return out;
 }
 
+// "arm.angle > 30", which may be meant in degrees.
+void doubt_bare_angles(const Node& when, const SignalNames& names) {
+  std::vector<std::string>* doubts = when.source().doubts;
+  if (!doubts) return;
+  const std::string text = when.expression("a comparison");
+  const std::vector<Word> words = spell(text, {when.source().parameters, {}, &names});
+  constexpr double turn = 2 * std::numbers::pi;
+  const auto is = [&](std::size_t i, std::initializer_list<const char*> texts) {
+    return i < words.size() && std::ranges::any_of(texts, [&](const char* one) { return words[i].text == one; });
+  };
+  for (std::size_t i = 0; i + 2 < words.size(); ++i) {
+    if (words[i].kind != Word::Kind::signal || (i > 0 && !is(i - 1, {"&&"})) || !is(i + 1, {"<", ">", "<=", ">="})) continue;
+    const Dimension& d = names.find(words[i].text)->second.dimension;
+    const std::size_t number = is(i + 2, {"-"}) ? i + 3 : i + 2;
+    const bool alone = number + 1 == words.size() || is(number + 1, {"&&"});
+    if (d.angle != 1 || !same(d, dimension::number) || number >= words.size() || words[number].kind != Word::Kind::number || !alone)
+      continue;
+    if (words[number].value > turn)
+      doubts->push_back(SceneError(when.source().file, when.place(),
+                                   "\"" + text + "\": " + words[number].text + " without a unit is in rad, " +
+                                       number_text(words[number].value / turn, 3) + " turns; if degrees are meant, write \"" +
+                                       words[number].text + " deg\", else \"" + words[number].text + " rad\"")
+                            .what());
+  }
+}
+
 SceneEvent read_event(const Node& node, const Scene& scene, const SignalNames& names) {
   SceneEvent event;
   event.name = checked_name(node);
@@ -92,6 +126,7 @@ SceneEvent read_event(const Node& node, const Scene& scene, const SignalNames& n
   const Node when = node.at("when");
   event.guard = read_event_law(when, dimension::number, names);
   event.when = read_comparisons(when, event.guard);
+  doubt_bare_angles(when, names);
   if (node.has("once")) event.once = node.at("once").yes();
   if (node.has("from start")) event.from_start = node.at("from start").yes();
   event.then = read_doing(node.at("do"), "events.*.do", scene, names);

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
+#include "framework/common/text.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -116,6 +120,18 @@ void read_laws_of(const Node& node, const std::filesystem::path& folder, double 
   }
 }
 
+// "90 + t", which may be meant in degrees.
+void doubt_bare_law(const Node& law, const Law& read) {
+  constexpr double turn = 2 * std::numbers::pi;
+  if (!law.source().doubts || !law.is_scalar() || !read.at || !(std::abs(read.at(0).value) > turn)) return;
+  const auto named = [](const Word& w) { return w.kind == Word::Kind::name && w.text != "t"; };
+  if (std::ranges::any_of(spell(read.text, {law.source().parameters}), named)) return;
+  law.source().doubts->push_back(SceneError(law.source().file, law.place(),
+                                            law.shown() + " without units is in rad, " + number_text(read.at(0).value / turn, 3) +
+                                                " turns at the start; if degrees are meant, write deg behind its numbers, else rad")
+                                     .what());
+}
+
 }  // namespace
 
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& scene) {
@@ -134,6 +150,7 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
     driver.from_present = says_present(law);
     driver.law = driver.from_present ? read_after_present(law, imposed, end_of_run(scene))
                                      : read_time_law(law, imposed, Smoothness::driver, folder, end_of_run(scene));
+    if (kind == 0 && !driver.from_present) doubt_bare_law(law, driver.law);
     scene.drivers.push_back(std::move(driver));
   }
 }

@@ -19,7 +19,7 @@ void read_bodies(const Node& root, Scene&);  ///< ground and bodies; after mater
 void read_joints(const Node& root, Scene&);
 void read_contacts(const Node& root, Scene&);  ///< after bodies
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
-void read_states(const Node& root, Scene&);                                       ///< without their rates; before forces
+void read_states(const Node& root, Scene&);                                       ///< but their rates; before forces and outputs
 void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);  ///< after everything that has signals
 void read_state_rates(const Node& root, Scene&);                                  ///< after forces
 void read_outputs(const Node& root, Scene&);                                      ///< after state rates
@@ -79,6 +79,11 @@ class ActingSignals {
 
 /// A load as a law of time or of signals: an expression, or {table: file, over: expression}.
 Law read_load_law(const Node&, std::string_view keys, const Dimension&, const std::filesystem::path& folder, double until, ActingSignals&);
+
+/// The rate of a state: an expression of the dimension, or a table.
+Law read_rate(const Node&, const Dimension&, const Scene&, const SignalNames&);
+/// A name that an expression can tell from all others. @param what  "a state"
+void check_signal_name(const Node&, const Scene&, const char* what);
 
 /// The description of a body of elements; its points are read already.
 SceneElastic read_elastic(const Node& body, const SceneBody&, const std::vector<SceneMaterial>&);

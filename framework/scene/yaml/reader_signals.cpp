@@ -54,6 +54,7 @@ TableAxis read_axis(const Node& over, const Node* unit, const SignalNames& names
   out.text = over.expression("a signal such as ram.y");
   try {
     out.law = read_measured_law(out.text, over.source().parameters, names);
+    out.text = out.law.law.text;
   } catch (const ExpressionError& error) {
     over.fail(error.what());
   }
@@ -183,15 +184,6 @@ Law read_signal_table(const Node& node, std::string_view keys, const Dimension& 
   return out;
 }
 
-Law read_rate(const Node& node, const Dimension& d, const Scene& scene, const SignalNames& names) {
-  constexpr const char* keys = "states.*.rate";
-  if (!node.is_map()) return read_acting_law(node, d, names);
-  check_keys(node, keys);
-  if (node.has("over")) return read_signal_table(node, keys, d, node.source().folder, names);
-  must_be_of_time(node);
-  return read_time_law(node, d, Smoothness::load, node.source().folder, scene.has_run ? scene.run.until : 0);
-}
-
 // The values of a table are in its `value unit`.
 SceneOutput read_table_output(const Node& node, const SignalNames& names) {
   constexpr const char* keys = "outputs.*";
@@ -231,7 +223,17 @@ bool needs(const std::vector<Node>& outputs, const Node& one, const std::string&
             node.name());
 }
 
-// A name that cannot be confused with others in an expression.
+}  // namespace
+
+Law read_rate(const Node& node, const Dimension& d, const Scene& scene, const SignalNames& names) {
+  constexpr const char* keys = "states.*.rate";
+  if (!node.is_map()) return read_acting_law(node, d, names);
+  check_keys(node, keys);
+  if (node.has("over")) return read_signal_table(node, keys, d, node.source().folder, names);
+  must_be_of_time(node);
+  return read_time_law(node, d, Smoothness::load, node.source().folder, scene.has_run ? scene.run.until : 0);
+}
+
 void check_signal_name(const Node& node, const Scene& scene, const char* what) {
   const std::string name = checked_name(node);
   if (const std::string fault = fault_of_name(name);
@@ -242,11 +244,14 @@ void check_signal_name(const Node& node, const Scene& scene, const char* what) {
     node.fail("\"" + name + "\" is a state too; give " + what + " a name of its own");
 }
 
-}  // namespace
-
 const SignalNames& ActingSignals::names() {
   if (names_) return *names_;
   names_ = signal_names(signal_words(scene_), SignalUse::acts);
+  for (const SceneOutput& made : scene_.outputs) {  // of states, by name; the scene's outputs come later
+    SignalName& name = names_->find(made.name)->second;
+    name.refused.clear();
+    name.stands_for = made.law.text;
+  }
   if (root_.has("outputs") && root_.at("outputs").is_map())
     for (const Yaml& output : root_.at("outputs").yaml().items)
       names_->try_emplace(
@@ -259,7 +264,7 @@ const SignalNames& ActingSignals::names() {
 
 // A letter after a dot, or a name without one.
 bool ActingSignals::may_be_in(const std::string& text) const {
-  if (!scene_.states.empty() || root_.has("outputs")) return true;
+  if (!scene_.states.empty() || !scene_.outputs.empty() || root_.has("outputs")) return true;
   for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot + 1))
     if (dot + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[dot + 1]))) return true;
   return false;
@@ -276,46 +281,6 @@ Law read_load_law(const Node& node, std::string_view keys, const Dimension& expe
     if (!law.signals.empty()) return law;
   }
   return read_time_law(node, expected, Smoothness::load, folder, until);
-}
-
-void read_states(const Node& root, Scene& scene) {
-  if (!root.has("states")) return;
-  for (const Node& node : root.at("states").entries("names and states: {integral: {rate: setpoint - arm.angle, start: 0 rad s}}")) {
-    check_signal_name(node, scene, "a state");
-    check_keys(node, "states.*");
-    SceneState state;
-    state.name = node.name();
-    state.place = node.place();
-    Dimension d = dimension::number;
-    if (node.has("unit")) {
-      try {
-        d = read_quantity(node.at("unit").text("a unit such as rad s")).dimension;
-      } catch (const ExpressionError& error) {
-        node.at("unit").fail(error.what());
-      }
-    } else if (node.has("start")) {
-      try {
-        d = read_quantity(node.at("start").text("a value such as 0 rad s"), node.at("start").parameters()).dimension;
-      } catch (const ExpressionError& error) {
-        node.at("start").fail(error.what());
-      }
-    }
-    state.unit = si_unit(d);
-    read_optional(node, "start", d, rule::any, state.start);
-    if (state.start != 0) state.scale = std::abs(state.start);
-    read_optional(node, "scale", d, rule::positive, state.scale);
-    scene.states.push_back(std::move(state));
-  }
-}
-
-void read_state_rates(const Node& root, Scene& scene) {
-  if (scene.states.empty()) return;
-  ActingSignals signals(root, scene);
-  const SignalNames& names = signals.names();
-  for (SceneState& state : scene.states) {
-    const Dimension d = names.find(state.name)->second.dimension;
-    state.rate = read_rate(root.at("states").at(state.name).at("rate"), product(d, dimension::rate), scene, names);
-  }
 }
 
 void read_outputs(const Node& root, Scene& scene) {

@@ -161,12 +161,12 @@ std::string Node::file(const std::string& remedy) const {
 
 std::string Node::expression(const std::string& remedy) const {
   std::string written = text(remedy);
-  if (yaml_->scope == 0) return written;
   try {
     if (written.find('{') != std::string::npos) written = numbered(written, parameters());
   } catch (const ExpressionError& error) {
     fail(error.what());
   }
+  if (yaml_->scope == 0) return written;
   SpelledOut out = spelled_out(written, *source_, yaml_->scope);
   if (out.names_parts && is_mirrored())
     fail(shown() + " names quantities of the motion, which are not mirrored with their instance; write this into the scene for each side");

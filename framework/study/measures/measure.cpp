@@ -31,6 +31,12 @@ std::string rate_of(const std::string& part) {
   return "";
 }
 
+/// Until when a run was to go: one that an event stopped, until then.
+double planned_end(const Scene& scene, const Run& run) {
+  const bool in_order = run.status == Status::finished || run.status == Status::ledger_over_bound;
+  return in_order ? std::min(scene.run.until, run.t_end) : scene.run.until;
+}
+
 /// Evaluates one measure of one run.
 class Measuring {
  public:
@@ -38,8 +44,10 @@ class Measuring {
       : asked_(asked), scene_(scene), model_(model), run_(run), columns_(run) {}
 
   double value() const {
-    const double until = scene_.run.until, slack = 1e-9 * until;
-    const double from = asked_.from, to = std::isinf(asked_.to) ? until : asked_.to;
+    const double until = planned_end(scene_, run_), slack = 1e-9 * scene_.run.until;
+    if (asked_.what == What::end) return run_.t_end < until - slack ? nan : run_.t_end;
+    const double from = asked_.last > 0 ? std::max(0.0, until - asked_.last) : asked_.from;
+    const double to = asked_.instant ? asked_.to : std::min(asked_.to, until);
     if (to > run_.t_end + slack || from > to || (from == to && !asked_.instant) || run_.trajectory.rows() == 0) return nan;
     switch (asked_.what) {
       case What::impacts: return impacts(from, to);
@@ -350,7 +358,7 @@ std::vector<Passage> passages_of(const Measure& measure, const Scene& scene, con
 MeasuredValue measured(const Measure& measure, const Scene& scene, const Model& model, const Run& run) {
   const Asked asked = read_measure(measure, scene);
   if (asked.what == What::path)
-    return {run.t_end < scene.run.until * (1 - 1e-9) ? nan : rms_distance(passages_of(measure, scene, run)), asked.unit};
+    return {run.t_end < planned_end(scene, run) * (1 - 1e-9) ? nan : rms_distance(passages_of(measure, scene, run)), asked.unit};
   return {Measuring(asked, scene, model, run).value(), asked.unit};
 }
 
@@ -379,6 +387,8 @@ void prepare(Scene& scene, const std::vector<Measure>& measures) {
       continue;
     }
     record(scene, asked);
+    if (asked.expression && std::ranges::find(scene.outputs, asked.owner, &SceneOutput::name) == scene.outputs.end())
+      scene.outputs.push_back(*asked.expression);
     if (one_state) continue;
     const double to = std::isinf(asked.to) ? until : asked.to;
     instants.push_back(asked.from), instants.push_back(to);

@@ -5,8 +5,10 @@
 
 #include "framework/common/nearest.h"
 #include "framework/scene/error.h"
+#include "framework/scene/units/signal_words.h"
 #include "framework/study/measures/measure.h"
 #include "framework/study/measures/measure_words.h"
+#include "framework/study/measures/measured_expression.h"
 #include "framework/study/measures/measurables.h"
 #include "framework/study/measures/mode_measure.h"
 
@@ -43,6 +45,24 @@ std::string those_that_bend(const Scene& scene) {
   return names.empty() ? "every body of the scene is rigid" : "flexible are " + listed(names, "and");
 }
 
+/// "coil.depth" of a spring, "main.normal" of an ideal joint, which no case can have.
+void refuse_absent_column(const Measure& m, const Asked& asked, const Scene& scene, const std::vector<std::string>& varied) {
+  if (asked.what != What::column || asked.owner.empty() || asked.part.find(' ') != std::string::npos) return;
+  const std::string name = asked.owner + "." + asked.part;
+  const Measurables all = measurables_of(scene);
+  const bool acts = std::ranges::find(all.actors, asked.owner) != all.actors.end();
+  if (!acts || !is_no_word(scene, name)) return;
+  for (const char* section : {"joints", "contacts", "drivers", "forces"})
+    for (const std::string& path : varied)
+      if (path == section || path.starts_with(std::string(section) + "." + asked.owner)) return;
+  Names parts;
+  for (const auto& [word, what] : signal_words(scene))
+    if (word.starts_with(asked.owner + ".") && word.find(" on ") == std::string::npos &&
+        (what.what != SignalWord::power || !what.text.empty()))
+      parts.push_back(word);
+  fail(m, scene, "is a column that \"" + asked.owner + "\" has in no case; it has " + listed(parts, "and"));
+}
+
 }  // namespace
 
 void judge(const std::vector<Measure>& measures, const Scene& scene) {
@@ -64,6 +84,7 @@ void validate_flexible(const std::vector<Measure>& measures, const Scene& scene,
   for (const Measure& m : measures) {
     if (of_modes(m.question)) continue;
     const Asked asked = read_measure(m, scene);
+    refuse_absent_column(m, asked, scene, varied);
     const SceneBody* body = elastic(asked) ? body_of(asked, scene) : nullptr;
     const auto may_change = [&](const std::string& path) { return path == "bodies" || path.starts_with("bodies." + body->name); };
     if (body && !bends(*body) && std::ranges::none_of(varied, may_change))

@@ -100,6 +100,36 @@ inline constexpr std::array ledger_columns{ColumnPart{"kinetic", "J"},    Column
                                            ColumnPart{"contacts", "J"},   ColumnPart{"strain", "J"},  ColumnPart{"stored", "J"},
                                            ColumnPart{"unexplained", "J"}};
 
+/// Of a force: its part, or the whole.
+struct ForceWord {
+  const char *words, *part;
+};
+inline constexpr std::array force_words{ForceWord{"force x", "x"},
+                                        ForceWord{"force y", "y"},
+                                        ForceWord{"x force", "x"},
+                                        ForceWord{"y force", "y"},
+                                        ForceWord{"fx", "x"},
+                                        ForceWord{"fy", "y"},
+                                        ForceWord{"normal force", "normal"},
+                                        ForceWord{"friction force", "friction"},
+                                        ForceWord{"joint force", ""},
+                                        ForceWord{"contact force", ""},
+                                        ForceWord{"driving force", ""},
+                                        ForceWord{"force", ""}};
+
+/// What energy is lost to.
+struct AccountWord {
+  const char *words, *column;
+};
+inline constexpr std::array account_words{AccountWord{"friction", "friction"},
+                                          AccountWord{"hysteresis", "hysteresis"},
+                                          AccountWord{"impacts", "hysteresis"},
+                                          AccountWord{"dampers", "damper"},
+                                          AccountWord{"damper", "damper"},
+                                          AccountWord{"damping", "damping"},
+                                          AccountWord{"numerical dissipation", "numerical dissipation"},
+                                          AccountWord{"scheme", "numerical dissipation"}};
+
 struct EnergyWord {
   const char *words, *column;
 };

@@ -9,6 +9,7 @@
 #include "framework/scene/error.h"
 #include "framework/scene/units/expression.h"
 #include "framework/study/measures/measure_vocabulary.h"
+#include "framework/study/measures/measured_expression.h"
 #include "framework/study/measures/measurables.h"
 
 namespace pintle {
@@ -23,15 +24,18 @@ class Reading {
   Asked read() {
     if (measure_.path) return read_path();
     words_.skip_articles();
+    if (read_end()) return asked_;
     read_statistic();
     const std::size_t begin = words_.place();
     words_.skip_articles();
-    if (!read_what()) {
+    const bool known = (looks_like_a_formula(words_.rest()) && read_expression()) || read_what() || read_expression();
+    if (!known) {
       words_.back_to(begin);
+      const bool formula = words_.rest().find('.') != std::string::npos || looks_like_a_formula(words_.rest());
       fail("\"" + words_.rest() +
            "\" is nothing that can be measured; write for example peak force at JOINT, x of BODY.POINT at 0.05 s, "
-           "rms torque of DRIVER after 10 ms or energy lost (docs/studies.md)." +
-           described(measurables_));
+           "rms torque of DRIVER after 10 ms, energy lost, or an expression such as coil.length - 3 mm (docs/studies.md)." +
+           (formula && !why_not_.empty() ? " As an expression: " + why_not_ + "." : "") + described(measurables_));
     }
     read_time();
     judge_question();
@@ -72,6 +76,29 @@ class Reading {
         return;
       }
     words_.take_any({"value of"});
+  }
+
+  /// When the run ends: at an event's stop, or at run.until.
+  bool read_end() {
+    const std::size_t before = words_.place();
+    if (!words_.take_any({"time of end", "time of the end", "end time", "duration of the run"}).empty() && words_.done()) {
+      if (!over_time(measure_.question)) fail("it takes no time; ask for something else");
+      return is(What::end, "s");
+    }
+    words_.back_to(before);
+    return false;
+  }
+
+  /// A signal or an expression of them, which has no column.
+  bool read_expression() {
+    auto found = measured_expression(words_.rest(), scene_, why_not_);
+    if (!found) return false;
+    words_.back_to(words_.place() + std::min(found->length + 1, words_.rest().size()));
+    is(What::written, "", "", found->output.name);
+    asked_.unit = found->output.unit;
+    std::ranges::replace(asked_.unit, '*', ' ');
+    asked_.expression = std::move(found->output);
+    return true;
   }
 
   bool is(What what, const char* unit, std::string part = "", std::string owner = "") {
@@ -118,8 +145,13 @@ class Reading {
     Names known;
     for (const std::string& owner : owners)
       for (const ColumnPart& part : parts) known.push_back(owner + "." + part.name);
+    const std::size_t before = words_.place();
     const std::string found = words_.take_name(known);
     if (found.empty()) return false;
+    if (is_signal_alone(scene_, found)) {
+      words_.back_to(before);
+      return read_expression();
+    }
     for (const std::string& owner : owners)
       for (const ColumnPart& part : parts)
         if (owner + "." + part.name == found) is_column(owner, part);
@@ -147,14 +179,12 @@ class Reading {
   bool read_written() {
     const std::string name = words_.take_name(measurables_.written);
     if (name.empty()) return false;
-    std::string unit;
-    for (const SceneOutput& o : scene_.outputs)
-      if (o.name == name) unit = o.unit;
-    for (const SceneState& s : scene_.states)
-      if (s.name == name) unit = s.unit;
-    std::ranges::replace(unit, '*', ' ');
     is(What::written, "", "", name);
-    asked_.unit = unit;
+    for (const SceneOutput& o : scene_.outputs)
+      if (o.name == name) asked_.unit = o.unit;
+    for (const SceneState& s : scene_.states)
+      if (s.name == name) asked_.unit = s.unit;
+    std::ranges::replace(asked_.unit, '*', ' ');
     return true;
   }
 
@@ -173,21 +203,7 @@ class Reading {
   }
 
   bool read_force() {
-    struct Component {
-      const char *words, *part;
-    };
-    for (const Component c : {Component{"force x", "x"},
-                              {"force y", "y"},
-                              {"x force", "x"},
-                              {"y force", "y"},
-                              {"fx", "x"},
-                              {"fy", "y"},
-                              {"normal force", "normal"},
-                              {"friction force", "friction"},
-                              {"joint force", ""},
-                              {"contact force", ""},
-                              {"driving force", ""},
-                              {"force", ""}})
+    for (const ForceWord& c : force_words)
       if (words_.take(c.words)) return is(What::force, "N", c.part, need("joint, driver or force", measurables_.actors));
     if (!words_.take_any({"driving torque", "torque", "moment", "couple"}).empty())
       return is(What::torque, "N m", "", need("joint, driver or force", measurables_.actors));
@@ -212,18 +228,7 @@ class Reading {
 
   std::string read_account() {
     words_.skip_articles();
-    struct Account {
-      const char *words, *column;
-    };
-    constexpr std::array accounts{Account{"friction", "friction"},
-                                  Account{"hysteresis", "hysteresis"},
-                                  Account{"impacts", "hysteresis"},
-                                  Account{"dampers", "damper"},
-                                  Account{"damper", "damper"},
-                                  Account{"damping", "damping"},
-                                  Account{"numerical dissipation", "numerical dissipation"},
-                                  Account{"scheme", "numerical dissipation"}};
-    for (const Account& a : accounts)
+    for (const AccountWord& a : account_words)
       if (words_.take(a.words)) return a.column;
     fail("\"" + words_.rest() +
          "\" is nothing that energy is lost to; write friction, hysteresis, damper, damping or numerical dissipation");
@@ -331,7 +336,7 @@ class Reading {
     if (how == "after" || how == "from" || how == "since")
       asked_.from = time(rest);
     else if (how.ends_with("last"))
-      asked_.from = std::max(0.0, scene_.run.until - time(rest));
+      asked_.last = time(rest), asked_.from = std::max(0.0, scene_.run.until - asked_.last);
     else
       asked_.to = time(rest);
     if (!(asked_.to > 0)) fail("its window is empty");
@@ -341,7 +346,8 @@ class Reading {
   void judge_question() {
     const Analysis analysis = measure_.question.analysis;
     if (analysis == Analysis::run) return;
-    const bool motion = asked_.what == What::motion || asked_.what == What::distance || asked_.what == What::path;
+    const bool motion = asked_.what == What::motion || asked_.what == What::distance || asked_.what == What::path ||
+                        (asked_.what == What::written && is_of_motion(scene_, asked_));
     if (analysis == Analysis::kinematics && !motion)
       fail("kinematics knows motion alone; write for example range of x of BODY.POINT, or analysis: inverse for forces");
     const bool of_the_ledger =
@@ -378,6 +384,7 @@ class Reading {
   const Scene& scene_;
   Words words_;
   Measurables measurables_;
+  std::string why_not_;  // it is no expression
   Asked asked_;
 };
 

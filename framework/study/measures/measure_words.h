@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ enum class What {
   free_flight,   ///< the longest time between two contacts
   contact_time,  ///< total time in contact
   written,       ///< an output or a state of the scene's own: the owner
+  end,           ///< when the run ends
   path,          ///< distance of a point's curve from the measure's path
   column         ///< of trajectory.csv or ledger.csv; part is its header without unit and body
 };
@@ -42,6 +44,8 @@ struct Asked {
   std::string other = {};  ///< for a distance
   std::string part = {};
   double from = 0, to = std::numeric_limits<double>::infinity();  ///< [s]; infinity: the end of the run
+  double last = 0;                                                ///< the window is as long, up to the end [s]; 0: it begins at `from`
+  std::optional<SceneOutput> expression = {};                     ///< what is `written`, where the scene has no output of it
   bool instant = false;                                           ///< the value at `from`, which equals `to`
   std::string unit = {};                                          ///< of the result
 };

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "framework/common/file.h"
+#include "framework/common/file_names.h"
 
 namespace pintle {
 
@@ -117,7 +118,9 @@ void WorkerPool::run(std::size_t number, int thread) {
     outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
   if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
-  if (!outcome.curves.empty()) write_text(folder_ / ("case-" + std::to_string(number) + ".csv"), outcome.curves);
+  FileNames names;
+  for (const auto& [situation, curves] : outcome.curves)
+    write_text(folder_ / (names.add("case-" + std::to_string(number) + (situation.empty() ? "" : "-" + situation), "") + ".csv"), curves);
   Row row{number,
           outcome.status,
           outcome.reason,
