@@ -49,14 +49,17 @@ void* open(const std::string& file, std::string& why) {
 
 }  // namespace
 
-std::string program_beside_modules(const std::string& name) {
+static std::string beside_modules(const std::string& name, int how) {
   static const std::vector<std::string> folders = search_path();
   for (const std::string& folder : folders)
-    if (const std::string path = folder + "/" + name; access(path.c_str(), X_OK) == 0) return path;
+    if (const std::string path = folder + "/" + name; access(path.c_str(), how) == 0) return path;
   throw std::runtime_error(name +
                            ": is missing; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
                            "name its folder in LD_LIBRARY_PATH");
 }
+
+std::string program_beside_modules(const std::string& name) { return beside_modules(name, X_OK); }
+std::string file_beside_modules(const std::string& name) { return beside_modules(name, R_OK); }
 
 const void* load_module(const char* name) {
   const std::string file = "libpintle_" + std::string(name) + ".so", symbol = "pintle_" + std::string(name);

@@ -90,7 +90,7 @@ ExportedFmu export_fmu(const FmuOrder& order) {
   out.contents.token = token_of(out.contents, files);
   const std::string identifier = identifier_of(order.scene);
   out.file = order.out.empty() ? fs::path(identifier + ".fmu") : order.out;
-  const std::string library = read_file(program_beside_modules("libpintle_fmu.so"), std::numeric_limits<std::size_t>::max());
+  const std::string library = read_file(file_beside_modules("libpintle_fmu.so"), std::numeric_limits<std::size_t>::max());
   ZipFile zip(out.file);
   zip.add("modelDescription.xml", model_description(out.contents, identifier));
   zip.add("binaries/" + std::string(platform) + "/" + identifier + ".so", library, true);
