@@ -87,7 +87,7 @@ class EventGroup {
   virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&) const { return std::nullopt; }
   /// Before the passages of a step that was tried are sought: where its guard stands at zero, which side that counts for may be decided here.
   /// The guards of its two ends follow.
-  virtual void settle(int /*event*/, const Step&, const DenseOutput&, Guard& /*from*/, Guard& /*to*/) {}
+  virtual void decide_at_zero(int /*event*/, const Step&, const DenseOutput&, Guard& /*from*/, Guard& /*to*/) {}
   /// Where its guard is zero the event has come already: no more has to follow.
   virtual bool comes_at_zero(int, const State&) const { return false; }
   /// Since it came last, its guard has left zero by no more than rounding can keep up.
