@@ -87,7 +87,7 @@ class EventGroup {
   virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&) const { return std::nullopt; }
   /// Before the passages of a step that was tried are sought: where its guard stands at zero, which side that counts for may be decided here.
   /// The guards of its two ends follow.
-  virtual void settle(int /*event*/, const Step&, const DenseOutput&, Guard& /*from*/, Guard& /*to*/) {}
+  virtual void decide_at_zero(int /*event*/, const Step&, const DenseOutput&, Guard& /*from*/, Guard& /*to*/) {}
   /// The event has occurred already where its guard is zero; it need not be passed.
   virtual bool comes_at_zero(int, const State&) const { return false; }
   /// Since its last occurrence, its guard has been within rounding of zero.

@@ -126,7 +126,7 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
 std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& motion, const Equations* evaluated) {
   look_at_end(step, evaluated);
   for (std::size_t k = 0; k < places_.size(); ++k)
-    if (watched_[k].level) group(k).settle(places_[k].event, step, motion, from_[k], to_[k]);
+    if (watched_[k].level) group(k).decide_at_zero(places_[k].event, step, motion, from_[k], to_[k]);
   const std::optional<EventInStep> at_end = passed_by_end(step);
   if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->watch.overshoot) return at_end;  // passed too far
   std::optional<EventInStep> out;

@@ -95,7 +95,7 @@ bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion,
 }
 
 // What stands at zero is true or false there as it is written: so the zero to be passed moves to the side from which it has come.
-void SceneEvents::settle(int event, const Step& step, const DenseOutput& motion, Guard& from, Guard& to) {
+void SceneEvents::decide_at_zero(int event, const Step& step, const DenseOutput& motion, Guard& from, Guard& to) {
   if (waits_[at(event)] == Waits::no_more || !(step.h > 0)) return;
   double& shift = shift_[at(event)];
   const double aside = believed(event) ? -2 * guard_near : 2 * guard_near;

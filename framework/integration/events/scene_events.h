@@ -62,7 +62,7 @@ class SceneEvents final : public EventGroup {
   Guard guard(int event, const State&) const override;
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
-  void settle(int event, const Step&, const DenseOutput&, Guard& from, Guard& to) override;
+  void decide_at_zero(int event, const Step&, const DenseOutput&, Guard& from, Guard& to) override;
   bool comes_at_zero(int event, const State&) const override;
   bool met(int event, const Guard&) const override;
   bool hardly_left(int event, const Step&, const DenseOutput&) const override;
