@@ -235,11 +235,14 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
     if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
 }
 
-/// Where the own states do not follow from each configuration. @returns false where they do
-bool rests_together(const Scene& scene, const Model& model, const RestingStates& states, double time, VectorXd own_start,
-                    Equilibrium& out) {
+VectorXd own_states(const System& system, const State& state) {
+  return state.y.segment(system.x_begin() + system.own_x, static_cast<Index>(system.states.size()));
+}
+
+/// From out.state, where the own states do not follow from each pose. @returns false where they do
+bool rests_together(const Scene& scene, const Model& model, const RestingStates& states, double time, Equilibrium& out) {
   const System& system = model.system;
-  KeptStates all{{}, std::make_shared<VectorXd>(std::move(own_start))};
+  KeptStates all{{}, std::make_shared<VectorXd>(own_states(system, out.state))};
   for (std::size_t i = 0; i < system.states.size(); ++i) all.which.push_back(static_cast<int>(i));
   Rest rest(system, time, all);
   State state = out.state;
@@ -288,9 +291,8 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
     return out;
   }
   const RestingStates states = resting_states(system);
-  VectorXd own = out.state.y.segment(system.x_begin() + system.own_x, static_cast<Index>(system.states.size()));
-  if (!states.sought.empty() && rests_together(scene, model, states, time, own, out)) return out;
-  Rest rest(system, time, {states.kept, std::make_shared<VectorXd>(own)});
+  if (!states.sought.empty() && rests_together(scene, model, states, time, out)) return out;
+  Rest rest(system, time, {states.kept, std::make_shared<VectorXd>(own_states(system, out.state))});
   if (!rest.project(out.state, 1)) {
     out.reason = why_no_pose(scene, model, out.state);
     return out;
@@ -299,6 +301,10 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   search(rest, way, out);
   State last = way.state();
   rest.project(last, 1);
+  if (!states.sought.empty() && !follow_the_pose(system, states, rest, time)) {  // a limit has been left: an integral is free again
+    out.state = last;
+    if (rests_together(scene, model, states, time, out)) return out;
+  }
   out.iterations = way.iterations();
   out.residual = rest.residual();
   out.method = !has_potential(rest.held)

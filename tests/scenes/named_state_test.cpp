@@ -7,6 +7,7 @@
 
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/build/build.h"
+#include "framework/configuration/equilibrium.h"
 #include "tests/refusal.h"
 #include "tests/scenes/text_runs.h"
 
@@ -151,6 +152,16 @@ TEST(NamedStates, LinearizedItHasThePolesOfItsGains) {
     for (const std::complex<double>& r : found) nearest = std::min(nearest, std::abs(r - root));
     EXPECT_LT(nearest, 1e-10);
   }
+}
+
+// It begins at its limit, where the integral follows from the pose, and rests within it, where the integral holds 2 kg 9.81 m/s² 0.3 m.
+TEST(NamedStates, AtRestTheIntegralHoldsTheLoad) {
+  const Scene s = scene(by("dopri5", named));
+  const Model model = build(s);
+  const Equilibrium rest = find_equilibrium(s, model, assemble(s, model), 0);
+  ASSERT_TRUE(rest.found) << rest.reason;
+  EXPECT_NEAR(rest.table.column("u integral [N m]").back(), 5.886, 1e-6);
+  EXPECT_NEAR(rest.table.column("arm.angle [rad]").back(), 0, 1e-7);
 }
 
 TEST(NamedStates, WhatCannotBeIsRefusedByName) {
