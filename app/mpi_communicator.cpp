@@ -66,7 +66,7 @@ class MpiCommunicator : public Communicator {
 
 }  // namespace
 
-extern "C" [[gnu::visibility("default")]] const MpiTable* pintle_mpi() {
+extern "C" [[gnu::visibility("default")]] const void* pintle_mpi() {
   static constexpr MpiTable table{PINTLE_VERSION, []() -> Communicator* { return new MpiCommunicator; }};
   return &table;
 }

@@ -66,7 +66,7 @@ bool Rest::project(State& state, double farthest) {
   state.t = t_;
   stop(state);
   state.impact_rate.resize(held.contacts.size());
-  if (!project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
+  if (!pintle::project(held, t_, state.y, eq) || !(size(state.y.head(held.n()) - before) <= farthest)) return false;
   stop(state);
   for (std::size_t c = 0; c < held.contacts.size(); ++c) {
     const ContactPair& pair = held.contacts[c];

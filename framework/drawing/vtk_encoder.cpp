@@ -77,7 +77,7 @@ std::string encode_grid(const Eigen::Matrix2Xd& at, const std::vector<Cells>& ce
 
 }  // namespace
 
-extern "C" [[gnu::visibility("default")]] const VtkEncoder* pintle_vtk() {
+extern "C" [[gnu::visibility("default")]] const void* pintle_vtk() {
   static constexpr VtkEncoder table{PINTLE_VERSION, encode_grid};
   return &table;
 }

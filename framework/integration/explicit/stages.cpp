@@ -46,7 +46,7 @@ bool Stages::evaluate_stage(const System& system, State& state, Equations& eq, E
       }
       project_stages_ = true;
     }
-    if (!project(system, state.t, state.y, eq)) {  // dependent rows agree only where C = 0 and Ċ = 0
+    if (!pintle::project(system, state.t, state.y, eq)) {  // dependent rows agree only where C = 0 and Ċ = 0
       weak_ = weak_ || eq.permanent == 0;
       return false;
     }
@@ -80,7 +80,7 @@ bool Stages::project(const System& system, Instant& node, Equations& eq) {
       if (!partition_.suits(eq)) partition_.choose(system, eq);
     }
     if (!partition_.correct(system, node.state.t, node.state.y, eq)) return false;
-  } else if (!project(system, node.state.t, node.state.y, eq)) {
+  } else if (!pintle::project(system, node.state.t, node.state.y, eq)) {
     return false;
   }
   if (!remove_slip(system, node.state, eq)) return false;

@@ -77,7 +77,7 @@ void Alpha::balance(const System& system, const State& state, const VectorXd& dy
 }
 
 bool Alpha::project(const System& system, Instant& node, Equations& eq) {
-  if (!project(system, node.state.t, node.state.y, eq)) return false;
+  if (!pintle::project(system, node.state.t, node.state.y, eq)) return false;
   remove_slip(system, node.state, eq);
   accelerate(system, node.state, eq);
   keep_friction(system, eq, node.state);
