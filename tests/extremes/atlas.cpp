@@ -11,6 +11,7 @@
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
 #include "tests/extremes/contact_rigid.h"
+#include "tests/unit/sanitized.h"
 
 namespace extremes {
 
@@ -103,7 +104,7 @@ Attempt attempt(Scene scene, double seconds) {
   Attempt a;
   a.scene = std::move(scene);
   try {
-    carry_out(a, seconds);
+    carry_out(a, seconds * pintle_test::sanitizer_slowdown);
   } catch (const std::exception& e) {
     a.trouble = std::string("an exception: ") + e.what();
   }

@@ -14,6 +14,7 @@
 #include "framework/integration/integrator.h"
 #include "framework/mechanism/table.h"
 #include "framework/scene/yaml/reader.h"
+#include "tests/unit/sanitized.h"
 #include "tests/unit/worn_slider_crank.h"
 
 namespace pintle {
@@ -52,6 +53,9 @@ TEST(CostEstimate, OfAShortRunIsCountedToTheStep) {
 }
 
 TEST(CostEstimate, OfALongRunIsToldFromAPartOfItWithinAFactorOfTwo) {
+#if defined(PINTLE_SANITIZED)
+  GTEST_SKIP() << "a trial run of a stated time sees too few steps";
+#endif
   const std::pair<const char*, double> cases[] = {
       {"slider_crank_clearance.yaml", 0.03}, {"paper/fig12_flexible.yaml", 0.2}, {"paper/table2_100.yaml", 0.03}};
   for (const auto& [file, seconds] : cases) {
@@ -71,6 +75,9 @@ TEST(CostEstimate, OfALongRunIsToldFromAPartOfItWithinAFactorOfTwo) {
 }
 
 TEST(CostEstimate, HasTheSameCountsEachTime) {
+#if defined(PINTLE_SANITIZED)
+  GTEST_SKIP() << "a trial run of a stated time sees too few steps";
+#endif
   Case c("slider_crank_clearance.yaml");
   c.scene.output.frames = 0;
   const CostEstimate one = estimate_cost(c.scene, c.model, c.assembly, 0.02), two = estimate_cost(c.scene, c.model, c.assembly, 0.02);
@@ -112,6 +119,9 @@ std::vector<std::string> names(const std::vector<Saving>& of) {
 }
 
 TEST(CostEstimate, OffersWhatTheSceneHasAndNothingElse) {
+#if defined(PINTLE_SANITIZED)
+  GTEST_SKIP() << "a trial run of a stated time sees too few steps";
+#endif
   Case c("pendulum.yaml");
   c.scene.output.frames = 0;
   const CostEstimate plain = estimate_cost(c.scene, c.model, c.assembly);

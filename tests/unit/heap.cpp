@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/unit/sanitized.h"
+
 namespace {
 std::atomic<long> allocations{0}, in_use{0};
 [[maybe_unused]] void take(std::size_t size) {
@@ -14,14 +16,6 @@ std::atomic<long> allocations{0}, in_use{0};
 }
 [[maybe_unused]] void give(std::size_t size) { in_use.fetch_sub(static_cast<long>(size), std::memory_order_relaxed); }
 }  // namespace
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PINTLE_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define PINTLE_SANITIZED 1
-#endif
-#endif
 
 #if defined(PINTLE_SANITIZED)  // owns malloc, and offers a hook
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));

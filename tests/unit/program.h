@@ -11,13 +11,7 @@
 #include <string>
 #include <vector>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PINTLE_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define PINTLE_SANITIZED 1
-#endif
-#endif
+#include "tests/unit/sanitized.h"
 
 extern char** environ;
 
