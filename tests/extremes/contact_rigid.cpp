@@ -294,7 +294,7 @@ Axis tunnelling() {
                           }});
   for (const double way : {1e-2, 1e-1, 1.0})
     axis.cases.push_back(
-        {.value = way, .label = printed("%g m", way), .what = "steps", .end = End::stopped, .says = "take a shorter step", .run = [=] {
+        {.value = way, .label = printed("%g m", way), .what = "steps", .end = End::stopped, .says = "use a shorter step", .run = [=] {
            return stopped_by_plate(1, {static_cast<int>(std::lround(2 / way))});
          }});
   return axis;

@@ -205,7 +205,7 @@ TEST(Body, SupportsThatLeaveAMotionLeaveTheModesAsked) {
 
 TEST(BadBody, DampingThatWouldFeedAModeIsRefused) {
   expect_says(complaint(beam("    supports: {A: fixed}\n    damping: {rayleigh: {ratios: [0.2, 0.001]}}\n")),
-              {"damping", "mode 6", "ratio -0.28", "feed"});
+              {"damping", "mode 6", "ratio -0.28", "add energy"});
 }
 
 TEST(BadBody, OutlineIsNoHole) {

@@ -323,7 +323,7 @@ TEST(BadProfile, IsRefusedInOneLineWithKeyAndRemedy) {
       {"[1, 1]", "{arc: 1}, [1, 1], {arc: 0}", "scene.yaml:3: bodies.b.profiles.skin.path", "must not be 0"},
       {"[1, 1]", "{arc: 1}, {arc: 2}, [1, 1]", "scene.yaml:3: bodies.b.profiles.skin.path", "is an arc where a point is needed"},
       {"closed: true", "closed: true, material: left", "scene.yaml:3: bodies.b.profiles.skin.material", "inside or outside"},
-      {"closed: true", "material: inside", "scene.yaml:3: bodies.b.profiles.skin.material", "of an open path is left or right"},
+      {"closed: true", "material: inside", "scene.yaml:3: bodies.b.profiles.skin.material", "of an open path must be left or right"},
       {"round: 1 cm", "round: 2 m", "scene.yaml:3: bodies.b.profiles.skin", "no room to round"},
       {"b.skin]", "b]", "scene.yaml:5: contacts.c.between", "names no profile. Known here: skin"},
       {"[a.skin, b.skin]", "[a.skin]", "scene.yaml:5: contacts.c.between", "two profiles, each as BODY.PROFILE"},

@@ -141,7 +141,7 @@ TEST(BadSignals, OutputsInACircleAreNamed) {
   };
   pintle_test::expect_one_line(refusal("  a: b*2\n  b: a*3\n"), "scene.yaml:11: outputs.a: ", {"a and b would depend on each other"});
   pintle_test::expect_one_line(refusal("  a: a*2\n"), "scene.yaml:11: outputs.a: ", {"a would depend on itself"});
-  pintle_test::expect_one_line(refusal("  integral: arm.angle\n"), "scene.yaml:11: outputs.integral: ", {"state", "another name"});
+  pintle_test::expect_one_line(refusal("  integral: arm.angle\n"), "scene.yaml:11: outputs.integral: ", {"state", "a name of its own"});
   pintle_test::expect_one_line(refusal("  a: arm.tip.ax\n"), "scene.yaml:11: outputs.a: ", {"not a column", "output.points"});
   EXPECT_EQ(refusal("  a: arm.alpha\n  b: a*1 kg m^2\n"), "accepted");
   const std::string named = pintle_test::refusal_by(

@@ -110,7 +110,7 @@ TEST(SweepJournal, SaysWhatWasTornAndWhatWasDone) {
   { const Journal journal(path, 42, &opened); }
   for (const auto& notes : {read, opened}) {
     ASSERT_EQ(notes.size(), 1u);
-    EXPECT_NE(notes[0].find("journal-0.txt:4: was torn"), std::string::npos) << notes[0];
+    EXPECT_NE(notes[0].find("journal-0.txt:4: is incomplete"), std::string::npos) << notes[0];
     EXPECT_NE(notes[0].find("run again"), std::string::npos) << notes[0];
   }
   read.clear();

@@ -87,7 +87,7 @@ TEST(BadModes, DampingIsJudged) {
       {"ratios: 0.02}", "}", "scene.yaml:38: bodies.rocker.damping: ", {"rayleigh or ratios"}},
       {"modes: [1, 3]", "modes: [3, 3]", "scene.yaml:11: bodies.coupler.damping.rayleigh.modes: ", {"one mode twice"}},
       {"modes: [1, 3]", "modes: [0, 3]", "scene.yaml:11: bodies.coupler.damping.rayleigh.modes[1]: ", {"at least 1"}},
-      {"modes: [1, 3]", "alpha: 3 1/s", "scene.yaml:11: bodies.coupler.damping.rayleigh: ", {"one of"}},
+      {"modes: [1, 3]", "alpha: 3 1/s", "scene.yaml:11: bodies.coupler.damping.rayleigh: ", {"either by ratios"}},
       {"ratios: [0.04, 0.03]", "ratios: 0.04", "scene.yaml:11: bodies.coupler.damping.rayleigh.ratios: ", {"two damping ratios"}},
       {"beta: 1e-5 s", "beta: -1e-5 s", "scene.yaml:25: bodies.mast.damping.rayleigh.beta: ", {"not be negative"}},
   });

@@ -223,7 +223,7 @@ TEST(PlaneBlocks, CellsBecomeTheElementOfTheirShapeOrTheOneNamed) {
   EXPECT_TRUE(std::holds_alternative<Block<Quadrilateral4>>(plane_blocks(mesh, p, "")[0]));
   EXPECT_TRUE(std::holds_alternative<Block<Quadrilateral4Plain>>(plane_blocks(mesh, p, "quadrilateral4-plain")[0]));
   EXPECT_TRUE(says(refusal([&] { plane_blocks(mesh, p, "triangle6"); }), "the mesh has quadrilateral4 cells"));
-  EXPECT_TRUE(says(refusal([&] { plane_blocks(mesh, p, "quad4"); }), "known are triangle3"));
+  EXPECT_TRUE(says(refusal([&] { plane_blocks(mesh, p, "quad4"); }), "the elements are triangle3"));
   // A quadrilateral cut in two stands among the others, under their name too, and counts on.
   Cells& cells = mesh.cells[0];
   const std::vector<int> last(cells.nodes.end() - 4, cells.nodes.end());

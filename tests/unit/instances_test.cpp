@@ -229,7 +229,7 @@ TEST(Instances, ThatHoldThemselvesAreRefusedByName) {
 assemblies: {a: {instances: {x: {of: b}}}, b: {instances: {y: {of: a}}}}
 instances: {top: {of: a}}
 )"),
-                  "scene.yaml:2: ", {"hold itself: a > b > a"});
+                  "scene.yaml:2: ", {"contain itself: a > b > a"});
 }
 
 TEST(Instances, ThatMultiplyAreRefused) {

@@ -196,7 +196,7 @@ TEST(MirrorRefusals, NameWhatHasNoMirrorImage) {
   expect_says(refused(body + ", start: {a: {x: 1}}"), {"start.i a.x", "at: [x, y]"});
   for (const char* of_signals :
        {"events: {e: {when: a.vx > 1 m/s, do: {row: true}}}", "states: {s: {rate: a.vx/(1 m)}}", "outputs: {o: a.vx}"})
-    expect_says(refused(body + ", " + of_signals), {"cannot be mirrored; the signals", "for each side"});
+    expect_says(refused(body + ", " + of_signals), {"cannot be mirrored; signals", "for each side"});
   expect_says(refused(body + ", forces: {f: {force: [{table: a.csv}, 0], at: a}}"), {"forces.i f.force", "follows: true"});
 }
 

@@ -87,7 +87,7 @@ TEST(Study, ThatIsWrongSaysWhereAndWhatToDo) {
             knocking,
             "study.yaml: ",
             {"is a scene, not a study", "scene: study.yaml", "peak force at main bearing", "clearance: [0.1 mm, …]"}},
-           {"{peak:", "{\"peak [kN]\":", "study.yaml:3: measure.peak [kN]: ", {"named in kN", "comes in N", "leave the unit out"}},
+           {"{peak:", "{\"peak [kN]\":", "study.yaml:3: measure.peak [kN]: ", {"the unit kN", "measured in N", "leave the unit out"}},
            {"{peak: peak force at gudgeon pin}",
             "{a: energy lost, \"a [J]\": final kinetic energy}",
             "study.yaml:3: measure: ",
