@@ -45,7 +45,7 @@ class SignalWordsOf {
     if (couple) part(".torque", dimension::torque);
   }
   void power(const std::string& name, std::string text) {
-    put(name + ".power", What::power, product(dimension::force, dimension::speed));
+    put(name + ".power", What::work_rate, product(dimension::force, dimension::speed));
     words_.find(name + ".power")->second.text = std::move(text);
   }
   // A motion of b less that of a.
@@ -197,12 +197,12 @@ SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>& w
   SignalNames out;
   for (const auto& [name, word] : words) {
     SignalName& known = out[name] = {word.dimension, ""};
-    if (word.what == What::power && word.text.empty()) known.refused = no_work;
+    if (word.what == What::work_rate && word.text.empty()) known.refused = no_work;
     if (use == SignalUse::written) {
       known.stands_for = word.text;
       continue;
     }
-    if (word.what == What::power && !word.text.empty()) known.refused = feedback;
+    if (word.what == What::work_rate && !word.text.empty()) known.refused = feedback;
     if (word.what == What::column) known.refused = feedback;
     if (word.what == What::output)
       known.refused = "is an output, which nothing that acts on the motion may name: write its expression here";

@@ -30,7 +30,7 @@ struct SignalWord {
     state,           ///< `index` among the scene's own states
     output,          ///< likewise
     column,          ///< of trajectory.csv: quantities that depend on the accelerations
-    power,           ///< that it puts into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
+    work_rate,       ///< power that it puts into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
   };
   What what;
   Dimension dimension;

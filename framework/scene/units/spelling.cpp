@@ -175,11 +175,11 @@ std::vector<std::string> columns_of(const std::vector<std::string>& signals, con
 
 /// What an owner has in place of a column that it has not. Where that is one of joints with clearance, and this joint has none, that is said:
 /// it may have been deleted.
-std::string hint_of(const std::string& owner, const std::string& column, const std::vector<std::string>& columns) {
+/// @param columns  those that this expression may name   @param joint  it has an angle and a reaction
+std::string hint_of(const std::string& owner, const std::string& column, const std::vector<std::string>& columns, bool joint) {
   static const std::vector<std::string> worn{"normal", "depth", "ex", "ey", "rate", "friction", "sliding"};
-  const auto has = [&](const char* name) { return std::ranges::find(columns, name) != columns.end(); };
   const std::string name = "\"" + owner.substr(0, owner.size() - 1) + "\"", known = listed(columns, "and");
-  if (has("angle") && has("fx") && std::ranges::find(worn, column) != worn.end())
+  if (joint && std::ranges::find(worn, column) != worn.end())
     return " " + name + " is an ideal joint, and has " + known + "; only joints with clearance" +
            (column == "friction" || column == "sliding" ? " or friction" : "") + " have " + column +
            (column == "normal" ? ". The size of its force is sqrt(" + owner + "fx^2 + " + owner + "fy^2)" : "");
@@ -201,7 +201,8 @@ void Speller::refuse_dotted() const {
     if (what.refused.empty()) names.push_back(known);
   const std::string owner = name.substr(0, name.rfind('.') + 1);
   const std::vector<std::string> columns = columns_of(names, owner);
-  std::string hint = columns.empty() ? did_you_mean(name, names) : hint_of(owner, name.substr(owner.size()), columns);
+  const bool joint = known_.signals->contains(owner + "angle") && known_.signals->contains(owner + "fx");
+  std::string hint = columns.empty() ? did_you_mean(name, names) : hint_of(owner, name.substr(owner.size()), columns, joint);
   constexpr std::size_t most = 300;
   if (columns.empty() && hint.size() > most)
     hint = " Signals are written owner.column, as trajectory.csv does: crank.angle, slider.P.vx, coil.length";

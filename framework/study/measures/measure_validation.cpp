@@ -58,7 +58,7 @@ void refuse_absent_column(const Measure& m, const Asked& asked, const Scene& sce
   Names parts;
   for (const auto& [word, what] : signal_words(scene))
     if (word.starts_with(asked.owner + ".") && word.find(" on ") == std::string::npos &&
-        (what.what != SignalWord::power || !what.text.empty()))
+        (what.what != SignalWord::work_rate || !what.text.empty()))
       parts.push_back(word);
   fail(m, scene, "is a column that \"" + asked.owner + "\" has in no case; it has " + listed(parts, "and"));
 }

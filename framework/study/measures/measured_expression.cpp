@@ -65,7 +65,7 @@ bool is_signal_alone(const Scene& scene, const std::string& name) {
   const auto words = signal_words(scene);
   const auto found = words.find(name);
   constexpr std::array alone{SignalWord::length,         SignalWord::length_rate, SignalWord::relative_angle,
-                             SignalWord::relative_speed, SignalWord::travel,      SignalWord::power};
+                             SignalWord::relative_speed, SignalWord::travel,      SignalWord::work_rate};
   return found != words.end() && std::ranges::find(alone, found->second.what) != alone.end();
 }
 
