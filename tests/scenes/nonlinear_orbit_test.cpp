@@ -113,18 +113,9 @@ struct Stopped {
 // Scales are 1 m and some 1 m/s: differences of 1e-6 err by 1e-12 times a third derivative, and by what steps of 1e-10 err differently.
 TEST(PeriodicOrbits, OfAnImpactOscillatorHaveTheMultipliersOfItsSaltationMatrix) {
   const SweepFolder folder;
-  const Followed done =
-      follow_study(folder,
-                   "parameters: {omega: 2 rad/s}\n"
-                   "ground: {points: {G: [0, 0]}, profiles: {stop: {path: [[0.1 m, -1 m], [0.1 m, 1 m]], material: right}}}\n"
-                   "bodies: {block: {rigid: {mass: 1 kg, inertia: 1}, profiles: {rim: {disc: [0, 0], radius: 0.1 m}}}}\n"
-                   "joints: {guide: {prismatic: [ground.G, block]}}\n"
-                   "forces: {pull: {force: [\"1 N*cos(omega*t) - 1 N/m*block.x - 0.1 N s/m*block.vx\", 0], at: block}}\n"
-                   "contacts: {hit: {between: [block.rim, ground.stop], model: impact, restitution: 0.6}}\n"
-                   "start: {block: {x: -0.5 m, vx: 0}}\n"
-                   "run: {until: 100 s, tolerance: 1e-10, method: dopri5}\n",
-                   "section: {every: 2*pi/omega, record: [block.x, block.vx], transient: 30, returns: 3}\n"
-                   "over: {omega: [2, 2.1]}\norbit: {}\n");
+  const Followed done = follow_study(folder, impact_oscillator,
+                                     "section: {every: 2*pi/omega, record: [block.x, block.vx], transient: 30, returns: 3}\n"
+                                     "over: {omega: [2, 2.1]}\norbit: {}\n");
   for (const FollowedValue& value : done.values) {
     SCOPED_TRACE(value.parameter);
     EXPECT_EQ(value.orbit.impacts.count, 3);

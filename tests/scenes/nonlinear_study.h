@@ -35,6 +35,17 @@ inline Followed follow_study(const SweepFolder& folder, const std::string& scene
   return out;
 }
 
+/// A damped oscillator of 1 kg and 1 N/m, driven by 1 N cos(omega t), that hits a stop at its rest with restitution 0.6.
+inline constexpr const char* impact_oscillator =
+    "parameters: {omega: 2 rad/s}\n"
+    "ground: {points: {G: [0, 0]}, profiles: {stop: {path: [[0.1 m, -1 m], [0.1 m, 1 m]], material: right}}}\n"
+    "bodies: {block: {rigid: {mass: 1 kg, inertia: 1}, profiles: {rim: {disc: [0, 0], radius: 0.1 m}}}}\n"
+    "joints: {guide: {prismatic: [ground.G, block]}}\n"
+    "forces: {pull: {force: [\"1 N*cos(omega*t) - 1 N/m*block.x - 0.1 N s/m*block.vx\", 0], at: block}}\n"
+    "contacts: {hit: {between: [block.rim, ground.stop], model: impact, restitution: 0.6}}\n"
+    "start: {block: {x: -0.5 m, vx: 0}}\n"
+    "run: {until: 100 s, tolerance: 1e-10, method: dopri5}\n";
+
 /// A ball on a heavy table that goes as A sin(omega t), driven by gamma = A omega^2/g: the exact map, once a period. The orbit that
 /// hits once a period has, at its impacts, gamma cos(phi) = pi (1 - e)/(1 + e), and the multipliers of its return have the sum
 /// 1 + e^2 - (1 + e)^2 gamma sin(phi) and the product e^2. So it is born at gamma = pi (1 - e)/(1 + e) and doubles where

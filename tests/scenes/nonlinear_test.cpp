@@ -102,18 +102,9 @@ TEST(Nonlinear, ErrorsOfExponentsAreToldOfEnoughIntervals) {
 // a period, and the sum of its exponents.
 TEST(Nonlinear, AnImpactOscillatorsMultipliersHaveTheProductOfTheClosedForm) {
   const SweepFolder folder;
-  const Followed done =
-      follow_study(folder,
-                   "parameters: {omega: 2 rad/s}\n"
-                   "ground: {points: {G: [0, 0]}, profiles: {stop: {path: [[0.1 m, -1 m], [0.1 m, 1 m]], material: right}}}\n"
-                   "bodies: {block: {rigid: {mass: 1 kg, inertia: 1}, profiles: {rim: {disc: [0, 0], radius: 0.1 m}}}}\n"
-                   "joints: {guide: {prismatic: [ground.G, block]}}\n"
-                   "forces: {pull: {force: [\"1 N*cos(omega*t) - 1 N/m*block.x - 0.1 N s/m*block.vx\", 0], at: block}}\n"
-                   "contacts: {hit: {between: [block.rim, ground.stop], model: impact, restitution: 0.6}}\n"
-                   "start: {block: {x: -0.5 m, vx: 0}}\n"
-                   "run: {until: 100 s, tolerance: 1e-10, method: dopri5}\n",
-                   "section: {every: 2*pi/omega, record: [block.x, block.vx], transient: 100, returns: 20}\n"
-                   "lyapunov: {exponents: 2, every: 2*pi/omega, over: 100*2*pi/omega}\n");
+  const Followed done = follow_study(folder, impact_oscillator,
+                                     "section: {every: 2*pi/omega, record: [block.x, block.vx], transient: 100, returns: 20}\n"
+                                     "lyapunov: {exponents: 2, every: 2*pi/omega, over: 100*2*pi/omega}\n");
   EXPECT_EQ(done.values.at(0).period, 1u);
   EXPECT_EQ(done.values[0].orbit.impacts.count, 20);
   const std::vector<Exponent>& found = done.values[0].orbit.exponents;
