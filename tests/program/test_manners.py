@@ -3,13 +3,13 @@
 usage: test_manners.py PINTLE"""
 
 import os
-import pty
-import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+from terminal import interrupted
 
 pintle = os.path.realpath(sys.argv.pop(1))
 pendulum = """
@@ -117,24 +117,9 @@ class Manners(unittest.TestCase):
         self.assertLess(max(map(len, about)), 400)
 
     def test_who_waits_is_told_how_long_and_may_stop(self):
-        ours, its = pty.openpty()
-        process = subprocess.Popen([pintle, "linearize", "swing.pintle.yaml", "--at", "1e6 s", "--set", "run.until=1e7 s", "--set", "output.every=1e4 s"],
-                                   cwd=self.place, stdout=subprocess.DEVNULL, stderr=its)
-        os.close(its)
-        said = b""
-        try:
-            while b"running to the state: " not in said:
-                said += os.read(ours, 4096)
-            process.send_signal(signal.SIGINT)
-        finally:
-            if not said:
-                process.kill()
-        try:
-            while more := os.read(ours, 4096):
-                said += more
-        except OSError:  # the other end is closed
-            pass
-        self.assertEqual(process.wait(), 6)
+        said, code = interrupted([pintle, "linearize", "swing.pintle.yaml", "--at", "1e6 s", "--set", "run.until=1e7 s",
+                                  "--set", "output.every=1e4 s"], self.place, b"running to the state: ")
+        self.assertEqual(code, 6)
         self.assertIn(b"stopped by the user (Ctrl-C) while running to the state; there are no results yet", said)
 
 

@@ -3,14 +3,14 @@
 usage: test_nonlinear.py PINTLE"""
 
 import os
-import pty
 import re
-import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+from terminal import interrupted
 
 pintle = os.path.realpath(sys.argv.pop(1))
 lorenz = """
@@ -68,24 +68,9 @@ class Nonlinear(unittest.TestCase):
                 self.assertTrue(x <= cx - r and cx + r <= x + width and y <= cy - r and cy + r <= y + height, (text, cx, cy))
 
     def test_who_waits_is_told_how_far_a_value_is(self):
-        ours, its = pty.openpty()
-        process = subprocess.Popen(self.study("section: {every: 100 s, record: X, transient: 0, returns: 1000000}\n"),
-                                   cwd=self.place, stdout=subprocess.DEVNULL, stderr=its)
-        os.close(its)
-        said = b""
-        try:
-            while b"0 of 1 values, the next at return " not in said or b" left" not in said:
-                said += os.read(ours, 4096)
-            process.send_signal(signal.SIGINT)
-        finally:
-            if not said:
-                process.kill()
-        try:
-            while more := os.read(ours, 4096):
-                said += more
-        except OSError:  # the other end is closed
-            pass
-        self.assertEqual(process.wait(), 6)
+        _, code = interrupted(self.study("section: {every: 100 s, record: X, transient: 0, returns: 1000000}\n"), self.place,
+                              b"0 of 1 values, the next at return ", b" left")
+        self.assertEqual(code, 6)
 
 
 if __name__ == "__main__":
