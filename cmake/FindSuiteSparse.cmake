@@ -1,8 +1,8 @@
 # Debian's SuiteSparse 5.12 ships no CMake configuration. Gives SuiteSparse::SuiteSparse
-# (CHOLMOD, KLU, LDL, SPQR).
+# (CHOLMOD, KLU, LDL; and SPQR as the component spqr).
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(_libs)
-foreach(lib cholmod klu ldl spqr amd colamd suitesparseconfig)
+foreach(lib ${SuiteSparse_FIND_COMPONENTS} cholmod klu ldl amd colamd suitesparseconfig)
   find_library(SuiteSparse_${lib} ${lib})
   list(APPEND _libs SuiteSparse_${lib})
 endforeach()

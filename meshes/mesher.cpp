@@ -53,10 +53,20 @@ struct SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
 };
 
+std::string find_mesher() {
+#ifdef PINTLE_WITHOUT_GPL
+  throw std::runtime_error(
+      "this pintle was built without Gmsh (PINTLE_GPL=OFF), which meshes drawings and links and reads .msh files; give the plate as a mesh "
+      "(file: part.inp) or as a grid, or use a build with Gmsh");
+#else
+  return program_beside_modules("pintle-mesher");
+#endif
+}
+
 /// One mesher: its process and the connection to it. It lives as long as the connection is open.
 class Worker {
  public:
-  Worker() : program_(program_beside_modules("pintle-mesher")) {
+  Worker() : program_(find_mesher()) {
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail(errno);
     line_ = ends[0];

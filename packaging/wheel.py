@@ -29,7 +29,7 @@ The libraries that it links are those of the Debian release that it was built on
 def main(version, stage, out):
     stage, out = Path(stage), Path(out)
     package = next(stage.rglob("dist-packages/pintle/__init__.py")).parent
-    modules = next(stage.rglob("pintle-mesher")).parent
+    modules = next(stage.rglob("libpintle_vtk.so")).parent
     files = {f"pintle/{f.name}": f for f in package.iterdir() if f.is_file()}
     files |= {f"pintle/modules/{f.name}": f for f in modules.iterdir() if f.name not in ("libpintle_fmu.so", "libpintle_mpi.so")}  # which the program alone loads
     tag = f"cp{sys.version_info.major}{sys.version_info.minor}"

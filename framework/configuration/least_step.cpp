@@ -35,6 +35,9 @@ VectorXd least_step(const Sparse& J, const VectorXd& W, const VectorXd& r, doubl
   const SuiteSparseMemory memory;
   Eigen::CholmodDecomposition<Sparse> solver;
   solver.cholmod().print = 0;
+#ifdef PINTLE_WITHOUT_GPL
+  solver.setMode(Eigen::CholmodSimplicialLLt);
+#endif
   factor(solver, S, memory);
   for (int i = 0; i < 10 && solver.info() != Eigen::Success; ++i) {  // the shift was lost in rounding
     S += 99 * shift * I;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "framework/component/eigen/symbolic.h"
+
 namespace pintle::factor_test {
 namespace {
 
@@ -157,6 +159,45 @@ TEST(NegativeEigenvalues, AreTheSameInABorrowedOrder) {
   Factor factor;
   ASSERT_TRUE(factor.compute(A + 2 * one));
   EXPECT_EQ(negative_eigenvalues(A - 1.234 * one, factor.supernodes()), negative_eigenvalues(A - 1.234 * one));
+}
+
+TEST(NegativeEigenvalues, AreTheSameBySupernodesFoundFromThePatternAlone) {
+  for (const auto& [nx, ny] : {std::pair{40, 21}, {1, 30}, {7, 7}, {90, 2}}) {
+    const Sparse A = grid(nx, ny, 0.2, 11);
+    Factor factor;
+    factor.analyse(A);
+    const Symbolic symbolic(A, factor.supernodes().order);
+    Sparse one(A.rows(), A.rows());
+    one.setIdentity();
+    for (const double shift : {-1.0, 1.234, 3.21, 6.5}) {
+      const Sparse shifted = A - shift * one;
+      EXPECT_EQ(negative_eigenvalues(shifted, symbolic.supernodes()), dense_count(shifted)) << nx << " by " << ny << ", shift " << shift;
+    }
+  }
+}
+
+TEST(Symbolic, HasEveryRowThatFillsInAndNoOther) {
+  const Sparse A = grid(12, 9);
+  Factor factor;
+  factor.analyse(A);
+  const Symbolic symbolic(A, factor.supernodes().order);
+  const Supernodes s = symbolic.supernodes();
+  MatrixXd filled = MatrixXd::Zero(s.n, s.n);  // elimination on paper: what is left of A where an entry may stand
+  for (int i = 0; i < s.n; ++i)
+    for (int j = 0; j < s.n; ++j) filled(i, j) = A.coeff(s.order[i], s.order[j]) != 0 ? 1 : 0;
+  for (int k = 0; k < s.n; ++k)
+    for (int i = k + 1; i < s.n; ++i)
+      for (int j = k + 1; j < s.n; ++j)
+        if (filled(i, k) > 0 && filled(k, j) > 0) filled(i, j) = 1;
+  for (int node = 0; node < s.count; ++node)
+    for (int c = s.first[node]; c < s.first[node + 1]; ++c) {
+      std::vector<int> expected;
+      for (int i = c; i < s.n; ++i)
+        if (filled(i, c) > 0) expected.push_back(i);
+      const std::vector<int> found(s.row + s.row_begin[node] + (c - s.first[node]), s.row + s.row_begin[node + 1]);
+      EXPECT_EQ(found, expected) << "column " << c;
+    }
+  EXPECT_EQ(s.first[s.count], s.n);
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ const std::vector<Foreign> foreign{
     {"ldl.h", {"framework/dynamics/solvers/sparse_ldl.cpp"}},
     {"klu", {"framework/dynamics/solvers/sparse_lu.cpp"}},
     {"umfpack", {}},
-    {"SuiteSparseQR", {"framework/configuration/row_space.cpp"}},
+    {"SuiteSparseQR", {"framework/configuration/row_qr.cpp"}},
     {"gmsh.h", {"meshes/gmsh_"}},
     {"nlopt.h", {"framework/study/fit/optimiser.cpp"}},
     {"Spectra/", {"tests/", "benchmarks/"}},

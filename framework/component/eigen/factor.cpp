@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "framework/common/suitesparse_memory.h"
+#include "framework/component/eigen/symbolic.h"
 
 namespace pintle {
 
@@ -18,6 +20,11 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr Eigen::Index panel_columns = 64;  // right-hand sides solved at a time: limits the memory of CHOLMOD's copies
+#ifdef PINTLE_WITHOUT_GPL
+constexpr int kind_of_factor = CHOLMOD_SIMPLICIAL;
+#else
+constexpr int kind_of_factor = CHOLMOD_SUPERNODAL;
+#endif
 
 // CHOLMOD's view of our matrix, read only.
 cholmod_sparse view(const Sparse& A) {
@@ -75,12 +82,13 @@ struct Factor::Data {
   cholmod_factor* L = nullptr;
   cholmod_dense *Y = nullptr, *E = nullptr;  // workspace of solves
   Places places;                             // of the matrix that L was analysed for
+  std::optional<Symbolic> symbolic;          // if L has no supernodes itself
   int pivot = -1;
 
   Data() {
     cholmod_start(&common);
     common.print = 0;
-    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.supernodal = kind_of_factor;
     common.final_ll = 1;
   }
   ~Data() {
@@ -100,7 +108,19 @@ struct Factor::Data {
   }
 
   // First column (in elimination order) whose pivot is lost in the rounding of A's diagonal; −1: none.
-  int lost_pivot(const Sparse& A) const {
+  int lost_pivot(const Sparse& A) const { return L->is_super ? lost_in_supernodes(A) : lost_in_columns(A); }
+
+  int lost_in_columns(const Sparse& A) const {
+    const int* begin = static_cast<const int*>(L->p);
+    const int* order = static_cast<const int*>(L->Perm);
+    const double* x = static_cast<const double*>(L->x);
+    const Eigen::VectorXd diagonal = A.diagonal();
+    for (int j = 0; j < static_cast<int>(L->n); ++j)
+      if (const double l = x[begin[j]]; !(l * l > nothing * diagonal[order[j]])) return j;
+    return -1;
+  }
+
+  int lost_in_supernodes(const Sparse& A) const {
     const int* first = static_cast<const int*>(L->super);
     const int* row_begin = static_cast<const int*>(L->pi);
     const int* begin = static_cast<const int*>(L->px);
@@ -137,6 +157,8 @@ void Factor::analyse(const Sparse& A) {
   memory.require();
   d.places = std::move(places);
   d.judge(A);
+  d.symbolic.reset();
+  if (!d.L->is_super) d.symbolic.emplace(A, static_cast<const int*>(d.L->Perm));
 }
 
 bool Factor::compute(const Sparse& A) {
@@ -174,6 +196,7 @@ double Factor::nonzeros() const { return data_->common.lnz; }
 double Factor::flops() const { return data_->common.fl; }
 
 Supernodes Factor::supernodes() const {
+  if (data_->symbolic) return data_->symbolic->supernodes();
   const cholmod_factor& L = *data_->L;
   return {static_cast<int>(L.n),         static_cast<int>(L.nsuper),   static_cast<const int*>(L.super),
           static_cast<const int*>(L.pi), static_cast<const int*>(L.s), static_cast<const int*>(L.Perm)};

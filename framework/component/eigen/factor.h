@@ -19,9 +19,9 @@ struct Supernodes {
   const int* order;      ///< order[k]: the degree of freedom that is eliminated k-th, n
 };
 
-/// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order, supernodes, all right-hand sides at once. The
-/// order is kept, so that for another matrix of the same pattern only the numbers are recomputed. Order: AMD, or nested dissection where
-/// AMD gives much fill (benchmarks/modes.cpp). Not to be shared between threads: solving uses a permanent workspace.
+/// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order, supernodes (without GPL parts: columns), all
+/// right-hand sides at once. The order is kept, so that for another matrix of the same pattern only the numbers are recomputed. Order: AMD,
+/// or nested dissection where AMD gives much fill (benchmarks/modes.cpp). Not for several threads: solving uses a permanent workspace.
 class Factor {
  public:
   Factor();

@@ -49,7 +49,11 @@ struct Order {
   explicit Order(int size) : n(size) {
     cholmod_start(&common);
     common.print = 0;
+#ifdef PINTLE_WITHOUT_GPL
+    common.supernodal = CHOLMOD_SIMPLICIAL;
+#else
     common.supernodal_switch = SparseLdl::thick;
+#endif
   }
   ~Order() { cholmod_finish(&common); }
   Order(const Order&) = delete;
