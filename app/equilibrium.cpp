@@ -14,6 +14,7 @@
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/common/file.h"
+#include "framework/common/some_of.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 
@@ -30,14 +31,10 @@ std::string stability_text(const Stability& s) {
   if (s.freedoms == 0) return "held in every direction by joints and drivers";
   const auto bodies = [&](int begin, int count) {
     std::vector<std::string> seen;
-    std::string out;
-    for (int i = begin; i < begin + count; ++i) {
-      const std::string& name = s.moving[static_cast<std::size_t>(i)];
-      if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
-      seen.push_back(name);
-      out += (out.empty() ? " (\"" : ", \"") + name + "\"";
-    }
-    return out + ")";
+    for (int i = begin; i < begin + count; ++i)
+      if (const std::string& name = s.moving[static_cast<std::size_t>(i)]; std::find(seen.begin(), seen.end(), name) == seen.end())
+        seen.push_back(name);
+    return " (" + some_of(seen) + ")";
   };
   std::string out = s.unstable > 0 ? "UNSTABLE in " + plural(s.unstable, "direction") + bodies(0, s.unstable) : "";
   if (s.neutral > 0)

@@ -5,6 +5,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/model/signal_values.h"
@@ -37,9 +38,9 @@ bool sizes_a_force(const System& system, int state) {
 }
 
 std::string list_of_states(const System& system, const std::vector<int>& which) {
-  std::string out;
-  for (const int i : which) out += (out.empty() ? "" : ", ") + quoted(system.states[at(i)].name);
-  return out;
+  std::vector<std::string> names;
+  for (const int i : which) names.push_back(system.states[at(i)].name);
+  return some_of(names);
 }
 
 std::string with_rate_unit(double rate, const OwnState& state) {

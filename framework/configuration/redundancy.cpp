@@ -7,6 +7,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/configuration/least_step.h"
 
@@ -126,13 +127,6 @@ Judged judged(const System& system, double t, const VectorXd& y, const std::vect
   return out;
 }
 
-/// "a", "b" and "c"
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + quoted(names[i]);
-  return out;
-}
-
 /// Names of the joints of a dependence, drivers or the others.
 std::vector<std::string> names_in(const System& system, const Dependence& d, bool drivers) {
   std::vector<std::string> out;
@@ -223,7 +217,7 @@ std::string misfit(const System& system, double t, const VectorXd& y, const std:
     const int k = joint_of(system, worst);
     std::ostringstream s;
     s.precision(3);
-    s << "the redundant joints " << listed(names_in(system, d, false))
+    s << "the redundant joints " << some_of(names_in(system, d, false))
       << " do not agree with each other: " << quoted(system.joint_names[at(k)]) << " stays open by " << std::abs(eq.C[worst])
       << (is_angle_row(system.joints[at(k)], worst - system.row_begin[at(k)]) ? " rad" : " m")
       << ", but at most 1e-11 of the mechanism's size is allowed; write lengths, points and angles with more digits, or remove a joint";
@@ -289,8 +283,8 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
     const std::vector<std::string> names = names_in(system, d, true);
     if (names.empty()) continue;
     const std::string who = names.size() > 1
-                                ? "the drivers " + listed(names) + " contradict each other"
-                                : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
+                                ? "the drivers " + some_of(names) + " contradict each other"
+                                : "the driver " + some_of(names) + " moves what " + some_of(names_in(system, d, false)) + " hold";
     if (contradiction_of_accelerations(system, t, y, d) > 1e-5)
       return who + ": at t = " + number_text(t) + " s they prescribe different accelerations for one degree of freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
@@ -321,16 +315,16 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     if (!alone[k]) continue;
     const Dependence& d = nearly[k];
     const std::vector<std::string> drivers = names_in(system, d, true);
-    const std::string others = listed(names_in(system, d, false));
+    const std::string others = some_of(names_in(system, d, false));
     if (drivers.empty()) return "a singular pose: the constraint equations of " + others + " have become linearly dependent there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
-    return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +
+    return "a dead centre: the driver " + some_of(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +
            (is_angle_row(joint, 0) ? " rad" : " m") + (others.empty() ? "" : ", because " + others + " hold it there");
   }
   for (const Dependence& d : permanent)
     if (const auto drivers = names_in(system, d, true); drivers.size() > 1)
-      return "the drivers " + listed(drivers) + " act on the same degree of freedom and contradict each other";
+      return "the drivers " + some_of(drivers) + " act on the same degree of freedom and contradict each other";
   return "";
 }
 
