@@ -147,7 +147,6 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   for (SceneBody& b : scene.bodies)
     if (b.elastic && b.elastic->modes && b.elastic->modes->keep.automatic && !root.at("bodies").at(b.name).at("modes").has("frame"))
       choose_frame(b, scene);
-  tree = {};  // of a large scene it needs as much memory as what follows
   scene.filled_in = filled_in(scene, source.parameters);
   return scene;
 }
