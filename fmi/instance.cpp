@@ -227,7 +227,7 @@ const std::vector<double>& FmuInstance::row() {
   if (!simulation_) return row_;
   if (mode_ != FmuMode::initialization) apply_inputs();
   if (row_.empty()) row_ = simulation_->now();
-  if (row_.empty()) throw FmuError("the motion here cannot be evaluated (a singular pose, or numbers beyond what a double holds)");
+  if (row_.empty()) throw FmuError("the motion here cannot be evaluated (a singular configuration, or numbers beyond what a double holds)");
   return row_;
 }
 

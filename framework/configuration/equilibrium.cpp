@@ -286,8 +286,9 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
     std::vector<std::string> drivers;
     for (std::size_t k = 0; k < system.joints.size(); ++k)
       if (is_driver(system.joints[k])) drivers.push_back(system.joint_names[k]);
-    out.reason = "the mechanism cannot be moved beyond t = " + number_text(reached) + " s: the law of " + names(drivers) +
-                 " prescribes a position that the links cannot reach there, or passes a singular pose; name an earlier time with --at";
+    out.reason =
+        "the mechanism cannot be moved beyond t = " + number_text(reached) + " s: the law of " + names(drivers) +
+        " prescribes a position that the links cannot reach there, or passes a singular configuration; name an earlier time with --at";
     return out;
   }
   const RestingStates states = resting_states(system);
@@ -315,8 +316,9 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;
   if (was_found && !out.found)
-    out.reason = "an equilibrium was found next to a singular pose, where joint forces grow without bound and cannot be determined: " +
-                 number_text(out.residual) + " of the greatest is unbalanced; start from another pose, or remove a driver or a joint";
+    out.reason =
+        "an equilibrium was found next to a singular configuration, where joint forces grow without bound and cannot be determined: " +
+        number_text(out.residual) + " of the greatest is unbalanced; start from another pose, or remove a driver or a joint";
   else if (!out.found && way.runs_away())
     out.reason =
         "nothing stops " + names(restless(rest.held, rest.eq.a)) +

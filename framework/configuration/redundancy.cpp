@@ -322,7 +322,7 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     const Dependence& d = nearly[k];
     const std::vector<std::string> drivers = names_in(system, d, true);
     const std::string others = listed(names_in(system, d, false));
-    if (drivers.empty()) return "a singular pose: the constraint equations of " + others + " have become linearly dependent there";
+    if (drivers.empty()) return "a singular configuration: the constraint equations of " + others + " have become linearly dependent there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
     return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +

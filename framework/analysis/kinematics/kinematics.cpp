@@ -160,7 +160,7 @@ std::string DrivenMotion::why() {
     return "dead centre or end of reach at the angles " + at_pose + ": the law of " + listed(asking) +
            " cannot be followed further; it no longer determines where " + listed(moving) + " goes; change the law, or drive another body";
   }
-  return "a singular pose, or one that " + listed(asking) + " cannot reach";
+  return "a singular configuration, or one that " + listed(asking) + " cannot reach";
 }
 
 void require_driven(const Scene& scene, const Model& model, const Assembly& assembly) {
