@@ -63,7 +63,7 @@ void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
     rows.emplace_back("results", (out / "fit.csv").string() +
                                      (fs::exists(out / "fitted.yaml") ? ", ready to run: " + (out / "fitted.yaml").string() : ""));
   print_rows(std::cout, rows);
-  if (end.stopped) std::cout << "  " << stopped_by() << "; the same command goes on from here\n";
+  if (end.stopped) std::cout << "  " << stopped_by() << "; the same command continues from here\n";
 }
 
 /// What is missing in the result; empty if nothing.
@@ -108,7 +108,7 @@ int fit(const Options& options) {
     print(plan, end, out);
   if (end.stopped) {
     if (options.quiet || options.json)
-      std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command goes on from here\n";
+      std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command continues from here\n";
     return stopped;
   }
   if (const std::string what = lack(plan, end); !what.empty()) {

@@ -245,7 +245,7 @@ int nonlinear(const Options& options) {
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.whole) {
     std::cerr << study.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
-              << study.size() << " values; the same command goes on from here\n";
+              << study.size() << " values; the same command continues from here\n";
     return stopped;
   }
   const std::vector<FollowedValue> values = followed(study, end.rows);

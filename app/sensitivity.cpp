@@ -84,7 +84,7 @@ int sensitivity(const Options& options) {
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.whole) {
     std::cerr << plan.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
-              << plan.sweep.cases.size() << " cases; the same command goes on from here\n";
+              << plan.sweep.cases.size() << " cases; the same command continues from here\n";
     return stopped;
   }
   const std::vector<MeasureSensitivity> all = sensitivities(plan, end.rows);

@@ -13,7 +13,7 @@ namespace pintle {
 namespace {
 
 [[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary) {
-  if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
+  if (is_function(name)) throw ExpressionError("the function " + name + " needs parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
   std::vector<std::string> known{std::string(vocabulary.variable), "pi"}, all;  // names to list in messages; and also units and signals
@@ -32,23 +32,22 @@ namespace {
 }
 
 constexpr std::string_view set_by_an_event =
-    " is a parameter that an event sets, and this value is made once, before the run; laws of forces and springs, rates, outputs and "
-    "conditions may "
-    "follow it: write such a law here, or take another parameter";
+    " is a parameter that an event sets, but this value is evaluated once, before the run; laws of forces and springs, rates, outputs and "
+    "conditions may depend on it: write such a law here, or use another parameter";
 
 int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formula& formula);
 
-// What a name stands for, as a part of the formula.
+// The expression that a name stands for, as a part of the formula.
 int part_of(const Word& word, const std::string& stands_for, const Vocabulary& known, Formula& formula) {
   constexpr int most_within = 30;
   Vocabulary within = known;
   if (++within.within > most_within)
-    throw ExpressionError(word.text + " would follow from itself: let what it follows from name states or signals in its place");
+    throw ExpressionError(word.text + " would depend on itself: in the expressions it depends on, name states or signals instead");
   const std::vector<Word> words = spell(stands_for, within);
   return build(parse(words), within, formula);
 }
 
-// The text with the expressions that names stand for in their place, so that it can be read where these names are not known.
+// The text with such names replaced by their expressions, so that it can be read where the names are unknown.
 std::string written_out(std::string_view text, const std::vector<Word>& words, const Vocabulary& known) {
   std::string out;
   const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
