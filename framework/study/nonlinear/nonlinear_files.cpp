@@ -21,7 +21,7 @@ std::string number_field(double x) {
   return out;
 }
 
-/// The unit that values of the parameter are written in, where all are numbers of one kind; else nothing.
+/// The unit of the parameter's values if all are numbers of one dimension; otherwise nothing.
 std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
   std::optional<std::string> out;
   for (std::size_t k = 0; k < study.sweep.cases.size(); ++k) {
@@ -36,7 +36,7 @@ std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
 
 std::string with_its_unit(const std::string& name, const std::string& unit) { return unit.empty() ? name : name + " [" + unit + "]"; }
 
-/// What stands at the head of each row: parameter and direction, where they are.
+/// Headings of the first columns: parameter and direction, if any.
 std::string heading_of_values(const Nonlinear& study) {
   std::string out;
   if (study.varies()) out += csv_field(parameter_header(study)) + ",";
