@@ -55,6 +55,12 @@ std::string listed(std::span<const std::string> words, std::string_view last) {
   return out;
 }
 
+std::string listed_in_quotes(std::span<const std::string> words, std::string_view last) {
+  std::vector<std::string> all;
+  for (const std::string& word : words) all.push_back("\"" + word + "\"");
+  return listed(all, last);
+}
+
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
   const std::string best = nearest(word, candidates);
   if (!best.empty()) return " Did you mean \"" + best + "\"?";

@@ -18,6 +18,9 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 /// "a, b or c"; with "," for the last word "a, b, c".
 std::string listed(std::span<const std::string> words, std::string_view last = "or");
 
+/// The same, each word in double quotes.
+std::string listed_in_quotes(std::span<const std::string> words, std::string_view last = "and");
+
 /// " Did you mean "x"?" or, without a near candidate, " Known here: a, b or c."
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 

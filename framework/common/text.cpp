@@ -21,6 +21,8 @@ std::string number_text(double x, int digits) {
   return s.str();
 }
 
+std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
 std::string quoted(const std::string& s) { return "\"" + s + "\""; }
 
 void append_number(std::string& out, double x) {

@@ -118,7 +118,7 @@ int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formul
   return results.back();
 }
 
-std::string quoted(std::string_view text) {
+std::string excerpt(std::string_view text) {
   constexpr std::size_t shown = 60;
   const bool cut = text.size() > shown;
   return std::string("\"").append(text.substr(0, shown)).append(cut ? "…\"" : "\"");
@@ -126,7 +126,7 @@ std::string quoted(std::string_view text) {
 
 [[noreturn]] void refuse(std::string_view text, const ExpressionError& error) {
   const std::string place = error.at > 0 ? ", character " + std::to_string(error.at) : "";
-  throw ExpressionError(quoted(text) + place + ": " + error.what());
+  throw ExpressionError(excerpt(text) + place + ": " + error.what());
 }
 
 bool fits(const Quantity& q, const Dimension& expected) { return bare(q.dimension) || same(q.dimension, expected); }
@@ -181,15 +181,16 @@ Quantity read_quantity(std::string_view text, const Parameters& parameters) { re
 double read_quantity(std::string_view text, const Dimension& expected, const Parameters& parameters) {
   const Quantity q = read_quantity(text, parameters);
   if (fits(q, expected)) return q.value;
-  throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected " + describe(expected));
+  throw ExpressionError(excerpt(text) + " is " + describe(q.dimension) + "; expected " + describe(expected));
 }
 
 double read_frequency(std::string_view text, const Parameters& parameters) {
   const Quantity q = evaluated(text, {parameters, frequency_units()});
   if (bare(q.dimension)) return q.value;
   if (!same(q.dimension, dimension::angular_speed))
-    throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected a frequency [Hz]");
-  if (q.dimension.angle != 1) throw ExpressionError(quoted(text) + " does not say whether turns or radians are counted; write Hz or rad/s");
+    throw ExpressionError(excerpt(text) + " is " + describe(q.dimension) + "; expected a frequency [Hz]");
+  if (q.dimension.angle != 1)
+    throw ExpressionError(excerpt(text) + " does not say whether turns or radians are counted; write Hz or rad/s");
   return q.value / (2 * std::numbers::pi);
 }
 

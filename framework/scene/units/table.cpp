@@ -193,7 +193,6 @@ class GridReader {
   }
 
  private:
-  static std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
   [[noreturn]] void fail(const std::string& message) const { throw SceneError(file_, {line_, key_}, message); }
 
   void first(const std::vector<std::string_view>& words) {
