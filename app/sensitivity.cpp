@@ -77,7 +77,7 @@ int sensitivity(const Options& options) {
   const fs::path out = study_directory(options, "-sensitivity");
   SweepSettings settings;
   settings.threads = thread_count(options);
-  heed_signals();
+  handle_signals();
   settings.progress = [](const SweepCount&) { return !asked_to_stop(); };
   now_doing("running the cases");
   const SweepEnd end = run_sweep(plan.sweep, out, settings);
