@@ -189,34 +189,34 @@ std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> co
   // x = X z + x₀
   MatrixXd X = MatrixXd::Zero(c.size(), size);
   VectorXd x0 = VectorXd::Zero(c.size());
-  for (Index i = 0, forth = n; i < n; ++i) {
+  for (Index i = 0, plus = n; i < n; ++i) {
     const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
     X(k.normal, i) = 1;
     if (k.sliding >= 0) X(k.sliding, i) = -k.direction * k.mu;
     if (k.sliding >= 0) x0[k.sliding] = -k.direction * k.mu * k.preload;
     if (k.tangent < 0) continue;
-    X(k.tangent, forth) = 1;
-    X(k.tangent, forth++ + m) = -1;
+    X(k.tangent, plus) = 1;
+    X(k.tangent, plus++ + m) = -1;
   }
   const MatrixXd respond = W * X;
   const VectorXd at_rest = W * x0 + c;
   const auto unit_of = [&](int of) { return 1 / std::sqrt(std::max(W(of, of), std::numeric_limits<double>::min())); };
   MatrixXd M = MatrixXd::Zero(size, size);
   VectorXd q = VectorXd::Zero(size), unit = VectorXd::Ones(size);
-  for (Index i = 0, forth = n; i < n; ++i) {
+  for (Index i = 0, plus = n; i < n; ++i) {
     const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
     M.row(i) = respond.row(k.normal);
     q[i] = at_rest[k.normal];
     unit[i] = unit_of(k.normal);
     if (k.tangent < 0) continue;
-    const Index back = forth + m, slip = back + m;
-    M.row(forth) = respond.row(k.tangent), M.row(back) = -respond.row(k.tangent);
-    q[forth] = at_rest[k.tangent], q[back] = -at_rest[k.tangent], q[slip] = k.mu * k.preload;
-    M(forth, slip) = M(back, slip) = 1;
-    M(slip, i) = k.mu, M(slip, forth) = M(slip, back) = -1;
-    unit[forth] = unit[back] = unit_of(k.tangent);
-    unit[slip] = 1 / unit[forth];
-    ++forth;
+    const Index minus = plus + m, slip = minus + m;
+    M.row(plus) = respond.row(k.tangent), M.row(minus) = -respond.row(k.tangent);
+    q[plus] = at_rest[k.tangent], q[minus] = -at_rest[k.tangent], q[slip] = k.mu * k.preload;
+    M(plus, slip) = M(minus, slip) = 1;
+    M(slip, i) = k.mu, M(slip, plus) = M(slip, minus) = -1;
+    unit[plus] = unit[minus] = unit_of(k.tangent);
+    unit[slip] = 1 / unit[plus];
+    ++plus;
   }
   const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
   if (!(most > 0)) return Unilateral{x0, 0};

@@ -42,7 +42,7 @@ std::size_t found(const std::string& of, const std::vector<std::string>& names) 
   if (at == names.end())
     throw FmuError("with these parameters the scene has no \"" + of +
                    "\", which the unit was made with; keep those that change what the "
-                   "mechanism is made of as they were, or export the scene anew with --set");
+                   "mechanism is made of as they were, or export the scene again with --set");
   return static_cast<std::size_t>(at - names.begin());
 }
 

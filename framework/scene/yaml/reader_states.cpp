@@ -128,8 +128,7 @@ MadeOfStates pid_of(const Node& node, const Dimension& d) {
   if (k.integral.value != 0) terms.push_back(integral);
   if (k.derivative.value != 0) {
     if (!node.has("filter"))
-      node.fail(
-          "takes a rate of change, which needs a filter (a pure derivative would need what is yet to come); add for example filter: 2 ms");
+      node.fail("takes a rate of change, which needs a filter (a pure derivative would need future values); add for example filter: 2 ms");
     const double time = node.at("filter").quantity(dimension::time, rule::positive);
     const std::string part =
         exact_text({k.derivative.value / time, product(k.derivative.dimension, dimension::rate)}) + "*" + e + " - " + filter;
