@@ -13,9 +13,9 @@ namespace fs = std::filesystem;
 constexpr int most_returns = 1'000'000;
 
 /// Checks an expression with the reader of the scene, by overriding a key with it.
-class Trying {
+class ExpressionCheck {
  public:
-  Trying(const CaseSource& source, const Overrides& set) : source_(source), set_(set) {}
+  ExpressionCheck(const CaseSource& source, const Overrides& set) : source_(source), set_(set) {}
 
   /// @throws SceneError  at the node, if the scene does not accept the overrides
   void check(const Node& node, const Overrides& put) const {
@@ -48,9 +48,9 @@ class Trying {
 };
 
 /// An expression for a time, in the scene's parameters.
-std::string read_time(const Node& node, const Trying& trying) {
+std::string read_time(const Node& node, const ExpressionCheck& expressions) {
   const std::string text = node.text("a time such as 2*pi/omega or 10 ms");
-  trying.check(node, {{"output", "null"}, {"run.until", override_text(node.yaml())}});
+  expressions.check(node, {{"output", "null"}, {"run.until", override_text(node.yaml())}});
   return override_text(node.yaml());
 }
 
@@ -74,12 +74,12 @@ int read_count(const Node& node, long least) {
   return static_cast<int>(n);
 }
 
-SectionQuestion read_section(const Node& node, const Trying& trying) {
+SectionQuestion read_section(const Node& node, const ExpressionCheck& expressions) {
   static const std::vector<std::string> kinds{"every", "when"};
   check_keys(node, "study.section");
   SectionQuestion out;
   if (which_key(node, kinds, "where the motion is sampled") == "every")
-    out.every = read_time(node.at("every"), trying);
+    out.every = read_time(node.at("every"), expressions);
   else
     out.when = override_text(node.at("when").yaml());
   out.record = read_record(node.at("record"));
@@ -93,19 +93,20 @@ SectionQuestion read_section(const Node& node, const Trying& trying) {
   const Node record = node.at("record");
   for (std::size_t k = 0; k < out.record.size(); ++k) {
     const Node entry = record.is_map() ? record.at(out.record[k].name) : record;
-    trying.check(entry, {all[k]});
+    expressions.check(entry, {all[k]});
   }
-  if (!out.when.empty()) trying.check(node.at("when"), Overrides(all.begin() + static_cast<std::ptrdiff_t>(out.record.size()), all.end()));
+  if (!out.when.empty())
+    expressions.check(node.at("when"), Overrides(all.begin() + static_cast<std::ptrdiff_t>(out.record.size()), all.end()));
   return out;
 }
 
-LyapunovQuestion read_lyapunov(const Node& node, const Trying& trying) {
+LyapunovQuestion read_lyapunov(const Node& node, const ExpressionCheck& expressions) {
   check_keys(node, "study.lyapunov");
   LyapunovQuestion out;
   if (node.has("exponents")) out.exponents = read_count(node.at("exponents"), 1);
-  out.every = read_time(node.at("every"), trying);
-  out.over = read_time(node.at("over"), trying);
-  if (node.has("transient")) out.transient = read_time(node.at("transient"), trying);
+  out.every = read_time(node.at("every"), expressions);
+  out.over = read_time(node.at("over"), expressions);
+  if (node.has("transient")) out.transient = read_time(node.at("transient"), expressions);
   if (node.has("distance")) out.distance = node.at("distance").quantity(dimension::number, rule::inside_zero_one);
   return out;
 }
@@ -148,16 +149,16 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
   const Cases cases = read_over(root);
   if (!cases.names.empty()) cases_of(file, cases, path, set, {});  // so that errors of the values are reported at them
   const Overrides first = cases.overrides(0);
-  const Trying trying(source, first);
+  const ExpressionCheck expressions(source, first);
   Nonlinear out;
   if (root.has("direction")) {
     const auto words = choices("study", "direction");
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
-  if (root.has("section")) out.question.section = read_section(root.at("section"), trying);
+  if (root.has("section")) out.question.section = read_section(root.at("section"), expressions);
   if (root.has("orbit")) out.question.cycle = read_cycle(root.at("orbit"), out.question.section);
   if (root.has("lyapunov")) {
-    out.question.lyapunov = read_lyapunov(root.at("lyapunov"), trying);
+    out.question.lyapunov = read_lyapunov(root.at("lyapunov"), expressions);
     try {
       lyapunov_times(source, first, *out.question.lyapunov);
     } catch (const std::invalid_argument& error) {

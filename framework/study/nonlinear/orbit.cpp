@@ -34,12 +34,12 @@ Scene recording_scene(const CaseSource& source, const Overrides& set) {
 }
 
 /// The recorded columns of the trajectory.
-struct Columns {
+struct RecordedColumns {
   Table row;
   std::vector<std::size_t> at;
   std::vector<std::string> units;
 
-  Columns(const Model& model, const OrbitQuestion& question) : row(trajectory_table(model)) {
+  RecordedColumns(const Model& model, const OrbitQuestion& question) : row(trajectory_table(model)) {
     const std::size_t n = question.section ? question.section->record.size() : 0;
     for (std::size_t k = 0; k < n; ++k) {
       const std::string name = output_name(k);
@@ -189,7 +189,7 @@ class Following {
 
   void returns(Integrator& integrator) {
     const SectionQuestion& section = *question_.section;
-    Columns columns(model_, question_);
+    RecordedColumns columns(model_, question_);
     out_.units = columns.units;
     const double from = integrator.state().t;
     double begin = from;
@@ -221,7 +221,7 @@ class Following {
     CycleRun run{.period = asked.period, .interval = out_.orbit.interval, .longest = longest_, .distance = asked.distance};
     run.expected = t.back() - t[t.size() - 1 - static_cast<std::size_t>(asked.period)];
     run.tolerance = asked.tolerance > 0 ? asked.tolerance : 100 * model_.scheme.tolerance;
-    Columns columns(model_, question_);
+    RecordedColumns columns(model_, question_);
     const auto read = [&](Integrator& at) { return columns.read(model_, at, sampled_); };
     const Cycle* branch = before_ && before_->cycle.found() ? &before_->cycle : nullptr;
     const auto find = [&](const CycleGuess& guess) { out_.orbit.cycle = find_cycle(model_, integrator.state(), guess, run, read, go_on_); };

@@ -56,9 +56,9 @@ std::string behind_number(const std::string& text) {
 }
 
 /// Distinguishes an error in the study from one in a case: by the reader's errors for some of the cases.
-class Trial {
+class CaseCheck {
  public:
-  explicit Trial(const Sweep& sweep) : sweep_(sweep) {}
+  explicit CaseCheck(const Sweep& sweep) : sweep_(sweep) {}
 
   void validate() const {
     for (std::size_t i = 0; i < sweep_.cases.names.size(); ++i) validate_name(i), validate_units(i);
@@ -160,7 +160,7 @@ Sweep cases_of(const StudyFile& file, Cases cases, const fs::path& path, const O
   out.print = print_of_included(scene, out.print);
   out.print = print_of_files(file.tree, folder, out.print);
   for (const auto& [name, value] : set) out.print = print_of_files({Yaml::Kind::scalar, 0, {}, value, {}}, folder, out.print);
-  Trial(out).validate();
+  CaseCheck(out).validate();
   return out;
 }
 
