@@ -43,7 +43,7 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
     const FitEnd end = run_fit(plan, folder, settings);
     csv = fit_csv(plan, end), json = fit_json(plan, end);
     if (end.best) {
-      const Trying& t = end.tried[*end.best];
+      const FitCase& t = end.tried[*end.best];
       met = end.meets(plan), file = plan.source.file.string(), best = plan.source.common;
       for (auto& [name, value] : best_point(plan, end)) best.emplace_back(name, value);
       for (std::size_t j = 0; j < plan.variables.size(); ++j) point.emplace_back(variable_header(plan.variables[j]), variable_value(t, j));
