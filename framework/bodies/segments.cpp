@@ -195,7 +195,7 @@ bool has_point(const SceneBody& body, const std::string& name) {
 }
 
 /// Keeps the frame's reference conditions if the piece has their points, otherwise uses the ends of the piece.
-void tie(SceneModes& modes, const SceneBody& piece) {
+void set_reference_conditions(SceneModes& modes, const SceneBody& piece) {
   using Frame = SceneModes::Frame;
   if (modes.frame == Frame::mean_axes) return;
   const bool chord = modes.frame == Frame::chord;
@@ -232,7 +232,7 @@ SceneBody piece_of(const Whole& whole, std::size_t k) {
   share_sections(whole, k, beam);
   std::erase_if(elastic.lumps, [&](const SceneLump& l) { return !has_point(piece, l.at); });
   std::erase_if(elastic.supports, [&](const SceneSupport& s) { return !has_point(piece, s.at); });
-  tie(*elastic.modes, piece);
+  set_reference_conditions(*elastic.modes, piece);
   piece.profiles = profiles_on(whole.body, piece);
   return piece;
 }
