@@ -15,19 +15,13 @@ namespace {
 
 bool is_set_before(FmuVariable::Kind kind) { return kind == FmuVariable::parameter || kind == FmuVariable::input; }
 
-std::string written_exactly(double x) {
-  std::string out;
-  append_number(out, x);
-  return out;
-}
-
 Scene scene_of(const FmuContents& contents, const std::filesystem::path& resources, const FmuSettings& settings) {
   Overrides set = contents.set;
   for (std::size_t v = 0; v < contents.variables.size(); ++v)
     if (contents.variables[v].kind == FmuVariable::parameter && settings.values[v])
-      set.emplace_back(contents.variables[v].of, written_exactly(*settings.values[v]));
-  if (settings.tolerance) set.emplace_back("run.tolerance", written_exactly(*settings.tolerance));
-  if (settings.stop) set.emplace_back("run.until", written_exactly(*settings.stop));
+      set.emplace_back(contents.variables[v].of, number_exactly(*settings.values[v]));
+  if (settings.tolerance) set.emplace_back("run.tolerance", number_exactly(*settings.tolerance));
+  if (settings.stop) set.emplace_back("run.until", number_exactly(*settings.stop));
   Scene scene = read_scene(resources / "scene" / contents.scene, set);
   for (std::size_t v = 0; v < contents.variables.size(); ++v)
     for (SceneState& state : scene.states)

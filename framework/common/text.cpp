@@ -32,4 +32,10 @@ void append_number(std::string& out, double x) {
   out.append(text, end);
 }
 
+std::string number_exactly(double x) {
+  std::string out;
+  append_number(out, x);
+  return out;
+}
+
 }  // namespace pintle

@@ -15,5 +15,6 @@ std::string counted(std::size_t n, const std::string& what);
 std::string quoted(const std::string&);
 /// The shortest decimal that reads back as x; an empty field for NaN.
 void append_number(std::string& out, double x);
+std::string number_exactly(double x);  ///< the same as a text of its own
 
 }  // namespace pintle

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "framework/common/dense.h"
+
 namespace pintle {
 
 using Eigen::Index;

@@ -30,15 +30,6 @@ Quantity quantity_of(const Node& node, const std::string& remedy) {
   }
 }
 
-// As an expression writes it, to the last bit.
-std::string exact_text(double value, const Dimension& d) {
-  std::string out = "(";
-  append_number(out, value);
-  const std::string unit = si_unit(d);
-  return out + (unit.empty() ? ")" : " " + unit + ")");
-}
-std::string exact_text(const Quantity& q) { return exact_text(q.value, q.dimension); }
-
 // What a state of a kind is made of, in words of expressions.
 struct StateOfKind {
   std::string name, rate;
