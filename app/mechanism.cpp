@@ -98,10 +98,10 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
-  const bool judged = run.status == Status::finished || run.status == Status::ledger_over_bound;
-  std::cout << "  unexplained energy" << (judged ? "" : " so far") << ": " << number(run.unexplained, 3) << " J, "
+  const bool checked = run.status == Status::finished || run.status == Status::ledger_over_bound;
+  std::cout << "  unexplained energy" << (checked ? "" : " so far") << ": " << number(run.unexplained, 3) << " J, "
             << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3) << " of the energy in play"
-            << (judged ? "" : "; not judged, because the run has not finished") << "\n";
+            << (checked ? "" : "; not checked, because the run has not finished") << "\n";
 }
 
 Scene runnable(const Options& options) {

@@ -216,9 +216,10 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
                                                                    "between bodies that other joints couple with a different ratio");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
   if (!singular.empty() && !choose_branch(closure, system, J, singular, r.W_speed, r.y))
-    throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
-                        "the start is a singular pose, where the motion can branch, and no branch has these speeds; start from another "
-                        "pose, or give other speeds in `start`");
+    throw AssemblyError(
+        scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
+        "the start is a singular configuration, where the motion can branch, and no branch has these speeds; start from another "
+        "pose, or give other speeds in `start`");
   return 1;
 }
 
@@ -268,7 +269,7 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
         "redundant joints: the motion does not determine how they share these forces; the program chooses the solution of least norm: " +
         rows_text(system, assembly.shared));
   if (!singular.empty())
-    out.push_back("the start is a singular pose, where the motion can branch: in this pose only, other joints imply " +
+    out.push_back("the start is a singular configuration, where the motion can branch: in this pose only, other joints imply " +
                   some_of(singular, false) +
                   "; speeds in `start` choose the branch; without them it is the one nearest to the least kinetic energy");
   for (std::string& locked : locked_couplings(system, assembly.start.t, assembly.start.y)) out.push_back(std::move(locked));

@@ -76,7 +76,7 @@ class TogetherAtRest {
         slope(n + i, n + j) = by.g_x(x, system_.own_x + sought_[at(j)]) * system_.states[at(sought_[at(j)])].scale;
       left[n + i] = law_at(system_, system_.laws[at(system_.states[at(which)].rate)], state.t, state.y);
     }
-    weigh(n, m);
+    set_weights(n, m);
   }
 
   /// Applies a step of the scaled unknowns. @returns false if the joints cannot be closed there
@@ -99,7 +99,7 @@ class TogetherAtRest {
 
  private:
   // Forces are scaled by the largest acting force at the start, rates by their sensitivity to the unknowns there.
-  void weigh(Index n, Index m) {
+  void set_weights(Index n, Index m) {
     if (weight_.size() == 0) {
       weight_ = VectorXd::Ones(m);
       for (Index i = 0; i < m; ++i)

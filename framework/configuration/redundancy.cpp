@@ -111,13 +111,13 @@ std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector
 }
 
 /// The dependences of a configuration: those that also hold near it, and those that hold only in it.
-struct Judged {
+struct Permanence {
   std::vector<Dependence> permanent, singular;
   std::vector<std::vector<Dependence>> near;  ///< all dependences in configurations nearby
 };
 
-Judged judged(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& here) {
-  Judged out;
+Permanence permanence(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& here) {
+  Permanence out;
   for (int attempt = 0; attempt <= along_speeds && out.near.size() < 2 && !here.empty(); ++attempt)
     if (const auto there = moved(system, t, y, attempt)) out.near.push_back(row_space_at(system, t, *there).dependences);
   const auto fewest = std::min_element(out.near.begin(), out.near.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
@@ -233,7 +233,7 @@ RowReport validate_rows(const System& system, double t, const VectorXd& y) {
   const RowSpace space = row_space_at(system, t, y);
   out.rank = space.rank;
   out.shared.assign(at(system.n_rows()), false);
-  const Judged all = judged(system, t, y, space.dependences);
+  const Permanence all = permanence(system, t, y, space.dependences);
   const auto share = [&](const Dependence& d) {
     for (const auto& [row, weight] : d.N) out.shared[at(row)] = true;
   };
@@ -253,7 +253,7 @@ RowReport validate_rows(const System& system, double t, const VectorXd& y) {
 }
 
 std::vector<Dependence> singular_dependences(const System& system, double t, const VectorXd& y) {
-  return judged(system, t, y, row_space_at(system, t, y).dependences).singular;
+  return permanence(system, t, y, row_space_at(system, t, y).dependences).singular;
 }
 
 std::string row_text(const System& system, int joint, int row) {
@@ -278,7 +278,7 @@ std::string rows_text(const System& system, const std::vector<bool>& marked, boo
 std::string contradiction(const System& system, double t, const VectorXd& y, double until) {
   const std::vector<Dependence> here = row_space_at(system, t, y).dependences;
   if (std::none_of(here.begin(), here.end(), [&](const Dependence& d) { return !names_in(system, d, true).empty(); })) return "";
-  const Judged all = judged(system, t, y, here);
+  const Permanence all = permanence(system, t, y, here);
   for (const Dependence& d : all.permanent) {
     const std::vector<std::string> names = names_in(system, d, true);
     if (names.empty()) continue;
@@ -304,7 +304,7 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
   const RowSpace space = row_space_at(system, t, y);
   const std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
   if (!conflict.empty()) return conflict;
-  const std::vector<Dependence> permanent = judged(system, t, y, space.dependences).permanent;
+  const std::vector<Dependence> permanent = permanence(system, t, y, space.dependences).permanent;
   if (const std::string open = misfit(system, t, y, permanent); !open.empty()) return open;
   const std::vector<Dependence> nearly = row_space_at(system, t, y, close).dependences;
   std::vector<Dependence> undriven = nearly;
@@ -316,7 +316,7 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     const Dependence& d = nearly[k];
     const std::vector<std::string> drivers = names_in(system, d, true);
     const std::string others = some_of(names_in(system, d, false));
-    if (drivers.empty()) return "a singular pose: the constraint equations of " + others + " have become linearly dependent there";
+    if (drivers.empty()) return "a singular configuration: the constraint equations of " + others + " have become linearly dependent there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
     return "a dead centre: the driver " + some_of(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +

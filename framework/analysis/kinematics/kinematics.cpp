@@ -155,7 +155,7 @@ std::string DrivenMotion::why() {
     return "dead centre or end of reach at the angles " + at_pose + ": the law of " + some_of(asking) +
            " cannot be followed further; it no longer determines where " + some_of(moving) + " goes; change the law, or drive another body";
   }
-  return "a singular pose, or one that " + some_of(asking) + " cannot reach";
+  return "a singular configuration, or one that " + some_of(asking) + " cannot reach";
 }
 
 void require_driven(const Scene& scene, const Model& model, const Assembly& assembly) {

@@ -291,7 +291,7 @@ std::string difference(const std::string& saved, const std::string& now) {
   other("blas", "BLAS");
   if (!out.empty())
     return "holds a mechanism whose numbers have other last digits than this one's: " + out +
-           "; go on with what it was saved by (of OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
+           "; continue with what it was saved by (for OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
   return "belongs to another scene: the numbers of its mechanism are others, though its words and files are not; restore what was made in "
          "C++, or run the scene from its start";
 }

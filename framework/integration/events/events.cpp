@@ -254,8 +254,7 @@ void Events::forget_wishes() {
 }
 
 const char* Events::fault() const {
-  if (to_.size() != places_.size() || spent_.size() != places_.size() || crowded_.size() != places_.size())
-    return "it is of another system, or has numbers that are none";
+  if (to_.size() != places_.size() || spent_.size() != places_.size() || crowded_.size() != places_.size()) return foreign_modes;
   for (const auto& g : groups_)
     if (const char* fault = g->fault()) return fault;
   return nullptr;

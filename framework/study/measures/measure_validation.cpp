@@ -66,7 +66,7 @@ void refuse_absent_column(const Measure& m, const Asked& asked, const Scene& sce
 
 }  // namespace
 
-void judge(const std::vector<Measure>& measures, const Scene& scene) {
+void validate(const std::vector<Measure>& measures, const Scene& scene) {
   for (const Measure& m : measures) {
     if (of_modes(m.question)) {
       read_mode_measure(m, scene);
