@@ -15,8 +15,8 @@
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
-#include "framework/common/nearest.h"
 #include "framework/common/processor_time.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/output/results.h"
@@ -93,15 +93,6 @@ void print_estimates(const Model& model) {
                 << " Hz; its loads change its first frequency by " << percent(r.motion->by_all_loads) << " %\n";
 }
 
-/// "a", "b" and 14 more
-std::string some(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 5;
-  if (names.size() <= most + 1) return listed(names, "and");
-  std::string out;
-  for (std::size_t k = 0; k < most; ++k) out += (k > 0 ? ", " : "") + names[k];
-  return out + " and " + std::to_string(names.size() - most) + " more";
-}
-
 /// Redundant rows of one joint implied by the same joints, for one line of output.
 struct RedundantRows {
   const Redundancy* first;
@@ -133,7 +124,7 @@ void print_redundancy(const System& s, const Assembly& a) {
     std::cout << "  redundant" << (r.permanent ? "" : " in this pose only") << ": \"" << s.joint_names[static_cast<std::size_t>(r.joint)]
               << "\" (" << groups[k].rows << ")"
               << (others.empty() ? (groups[k].count > 1 ? " constrain" : " constrains") + std::string(" nothing that can move")
-                                 : (groups[k].count > 1 ? " are" : " is") + std::string(" implied by ") + some(others))
+                                 : (groups[k].count > 1 ? " are" : " is") + std::string(" implied by ") + some_of(others, false))
               << "\n";
   }
   if (groups.size() > most) std::cout << "  redundant: also rows of " << groups.size() - most << " more joints; --json lists them all\n";
@@ -197,7 +188,7 @@ std::vector<std::string> massless_bodies(const Scene& scene) {
 /// Checks a scene for which kinematics is possible, but no forces.
 int check_kinematics(const Options& options, Waiting& waiting, Scene scene, const std::vector<std::string>& massless) {
   scene.warnings.push_back(
-      listed(massless, "and") + (massless.size() == 1 ? " lacks" : " lack") +
+      some_of(massless, false) + (massless.size() == 1 ? " lacks" : " lack") +
       " mass or inertia: only `pintle kinematics` can run this scene (and `pintle statics`, with masses or without gravity)");
   scene = ready_for_kinematics(std::move(scene));
   const Model model = build(scene);

@@ -75,7 +75,7 @@ int kinematics(const Options& options) {
   const Assembly assembly = assemble(scene, model);
   require_driven(scene, model, assembly);
 
-  heed_signals();
+  handle_signals();
   tell_leftovers(options, out);
   ResultsDirectory results(out);
   results_are_in(results.path().string());
@@ -104,7 +104,7 @@ int inverse(const Options& options) {
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
 
-  heed_signals();
+  handle_signals();
   tell_leftovers(options, out);
   ResultsDirectory results(out);
   results_are_in(results.path().string());

@@ -14,6 +14,8 @@
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/common/file.h"
+#include "framework/common/some_of.h"
+#include "framework/common/text.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/output/results.h"
 
@@ -23,27 +25,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string plural(int n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
-
 std::string stability_text(const Stability& s) {
-  if (!s.judged) return "not judged: " + s.why_not;
+  if (!s.judged) return "not determined: " + s.why_not;
   if (s.freedoms == 0) return "held in every direction by joints and drivers";
   const auto bodies = [&](int begin, int count) {
     std::vector<std::string> seen;
-    std::string out;
-    for (int i = begin; i < begin + count; ++i) {
-      const std::string& name = s.moving[static_cast<std::size_t>(i)];
-      if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
-      seen.push_back(name);
-      out += (out.empty() ? " (\"" : ", \"") + name + "\"";
-    }
-    return out + ")";
+    for (int i = begin; i < begin + count; ++i)
+      if (const std::string& name = s.moving[static_cast<std::size_t>(i)]; std::find(seen.begin(), seen.end(), name) == seen.end())
+        seen.push_back(name);
+    return " (" + some_of(seen) + ")";
   };
-  std::string out = s.unstable > 0 ? "UNSTABLE in " + plural(s.unstable, "direction") + bodies(0, s.unstable) : "";
+  std::string out =
+      s.unstable > 0 ? "UNSTABLE in " + counted(static_cast<std::size_t>(s.unstable), "direction") + bodies(0, s.unstable) : "";
   if (s.neutral > 0)
-    out += (out.empty() ? "" : ", ") + std::string("neutral in ") + plural(s.neutral, "direction") + bodies(s.unstable, s.neutral);
+    out += (out.empty() ? "" : ", ") + std::string("neutral in ") + counted(static_cast<std::size_t>(s.neutral), "direction") +
+           bodies(s.unstable, s.neutral);
   if (out.empty()) out = "stable";
-  out += ", of " + plural(s.freedoms, "degree") + " of freedom";
+  out += ", of " + counted(static_cast<std::size_t>(s.freedoms), "degree") + " of freedom";
   return out + (s.circulatory ? "; follower loads may cause flutter, which statics cannot detect" : "");
 }
 
@@ -89,8 +87,8 @@ void print(const Scene& scene, const Equilibrium& e, const fs::path& out) {
   std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
   Rows rows;
   if (!e.method.empty())
-    rows.emplace_back(e.found ? "found by" : "tried", e.method + ", " + plural(e.iterations, "iteration") + "; residual " +
-                                                          number(e.residual, 2) + " of the greatest force");
+    rows.emplace_back(e.found ? "found by" : "tried", e.method + ", " + counted(static_cast<std::size_t>(e.iterations), "iteration") +
+                                                          "; residual " + number(e.residual, 2) + " of the greatest force");
   if (e.found) {
     rows.emplace_back("equilibrium", stability_text(e.stability));
     if (e.state.t != 0) rows.emplace_back("at", number(e.state.t, 9) + " s, with drivers held and loads as at this time");

@@ -23,7 +23,7 @@ std::string methods_text(const FitPlan& plan) {
 
 std::string cases_text(const FitPlan& plan, const FitEnd& end) {
   std::map<std::string, std::size_t> trouble;
-  for (const Trying& t : end.tried)
+  for (const FitCase& t : end.tried)
     if (!t.worth.known) ++trouble[t.row.status == "finished" ? "without the measure" : t.row.status];
   std::string out = std::to_string(end.tried.size()) + " of at most " + std::to_string(plan.evaluations);
   for (const auto& [status, n] : trouble) out += ", " + std::to_string(n) + " " + status;
@@ -32,7 +32,7 @@ std::string cases_text(const FitPlan& plan, const FitEnd& end) {
 }
 
 void add_best(Rows& rows, const FitPlan& plan, const FitEnd& end) {
-  const Trying& t = end.tried[*end.best];
+  const FitCase& t = end.tried[*end.best];
   const std::vector<double> values = measured_values(plan, t);
   for (std::size_t m = 0; m < values.size(); ++m) rows.emplace_back(measured_header(plan, end, m), number(values[m], 9));
   for (std::size_t i = 0; i < plan.goal.bounds.size(); ++i) {
@@ -63,13 +63,13 @@ void print(const FitPlan& plan, const FitEnd& end, const fs::path& out) {
     rows.emplace_back("results", (out / "fit.csv").string() +
                                      (fs::exists(out / "fitted.yaml") ? ", ready to run: " + (out / "fitted.yaml").string() : ""));
   print_rows(std::cout, rows);
-  if (end.stopped) std::cout << "  " << stopped_by() << "; the same command goes on from here\n";
+  if (end.stopped) std::cout << "  " << stopped_by() << "; the same command continues from here\n";
 }
 
 /// What is missing in the result; empty if nothing.
 std::string lack(const FitPlan& plan, const FitEnd& end) {
   if (!end.best) {
-    const auto first = std::ranges::find_if(end.tried, [](const Trying& t) { return !t.worth.known; });
+    const auto first = std::ranges::find_if(end.tried, [](const FitCase& t) { return !t.worth.known; });
     std::string out =
         "none of " + std::to_string(end.tried.size()) + " points could be measured; give a start that works, or more sample points";
     if (first != end.tried.end()) out += "; the first: " + first->row.status + (first->row.reason.empty() ? "" : ": " + first->row.reason);
@@ -108,7 +108,7 @@ int fit(const Options& options) {
     print(plan, end, out);
   if (end.stopped) {
     if (options.quiet || options.json)
-      std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command goes on from here\n";
+      std::cerr << plan.base.study.file << ": " << stopped_by() << "; the same command continues from here\n";
     return stopped;
   }
   if (const std::string what = lack(plan, end); !what.empty()) {

@@ -145,8 +145,8 @@ void FramePicture::place_notes() {
   bottom_ = static_cast<int>(small_ * (50 + line_height * rows + field_rows() * field_row));
 }
 
-/// So that the world fills the picture. Arrows have a length in pixels, so that the world that holds them grows as its scale falls: it
-/// gives way to them down to a share of its scale, and then they to it.
+/// Scales the world to fill the picture. Arrows have lengths in pixels and need room in the picture: the scale of the world is reduced for them
+/// down to a share of it; below that the arrows are shortened.
 void FramePicture::fit() {
   constexpr int most = 20;
   constexpr double least_share = 0.6, close = 1.001;

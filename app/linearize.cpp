@@ -75,6 +75,42 @@ void write_animations(const fs::path& out, const Scene& scene, const Model& mode
   }
 }
 
+/// The state to linearize about. @returns nothing if it was not found, which has been reported
+std::optional<LinearizedStart> state_about(const Options& options, const Scene& scene, const Model& model, double t) {
+  now_doing("assembling the mechanism");
+  const Assembly assembly = assemble(scene, model);
+  if (options.at_rest) {
+    now_doing("finding the equilibrium");
+    const Equilibrium rest = find_equilibrium(scene, model, assembly, t);
+    if (rest.found) return LinearizedStart{rest.state, ""};
+    std::cerr << scene.file << ": no equilibrium to linearize about: " << rest.reason << "\n";
+    return std::nullopt;
+  }
+  if (options.at.empty()) return linearized_start(scene, model, assembly);
+  now_doing("running to the state");
+  try {
+    return LinearizedStart{state_at(model, assembly.start, t), ""};
+  } catch (const std::runtime_error& e) {
+    std::cerr << scene.file << ": " << e.what() << "\n";
+    return std::nullopt;
+  }
+}
+
+void print_linearization(const Options& options, const Scene& scene, const Model& model, const Linearization& lin, const fs::path& out) {
+  std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
+  print_rows(std::cout, {{"about", about_text(options, lin)},
+                         {"free coordinates", std::to_string(lin.independent.size()) + " of " + std::to_string(lin.coordinates.size())},
+                         {"state space", std::to_string(lin.space.states.size()) + " states, " + std::to_string(lin.space.inputs.size()) +
+                                             " inputs, " + std::to_string(lin.space.outputs.size()) + " outputs"}});
+  std::cout << std::flush;
+  if (!lin.modes.empty()) print_modes(lin, options.count);
+  for (const std::string& n : lin.notes) std::cout << "  note: " << n << "\n";
+  for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
+  print_rows(std::cout, {{"results", out.string() + (options.frames > 0 && !lin.modes.empty()
+                                                         ? ", animations " + (out / "mode_01/mechanism.pvd").string() + " …"
+                                                         : "")}});
+}
+
 }  // namespace
 
 int linearize(const Options& options) {
@@ -89,33 +125,11 @@ int linearize(const Options& options) {
   if (options.frames > 0) scene.output.frames = std::max(2, scene.output.frames);  // keeps the data needed to draw flexible bodies
   now_doing("building the model");
   const Model model = build(scene);
-  now_doing("assembling the mechanism");
-  const Assembly assembly = assemble(scene, model);
-  State state;
-  std::string note;
-  if (!options.at_rest && options.at.empty()) {
-    LinearizedStart start = linearized_start(scene, model, assembly);
-    state = std::move(start.state), note = std::move(start.note);
-  } else if (options.at_rest) {
-    now_doing("finding the equilibrium");
-    const Equilibrium rest = find_equilibrium(scene, model, assembly, t);
-    if (!rest.found) {
-      std::cerr << scene.file << ": no equilibrium to linearize about: " << rest.reason << "\n";
-      return run_failed;
-    }
-    state = rest.state;
-  } else {
-    now_doing("running to the state");
-    try {
-      state = state_at(model, assembly.start, t);
-    } catch (const std::runtime_error& e) {
-      std::cerr << scene.file << ": " << e.what() << "\n";
-      return run_failed;
-    }
-  }
+  const std::optional<LinearizedStart> start = state_about(options, scene, model, t);
+  if (!start) return run_failed;
   now_doing("linearizing about the state");
-  Linearization lin = linearize(scene, model, state, options.at_rest ? Laws::hold : Laws::go_on);
-  if (!note.empty()) lin.notes.push_back(note);
+  Linearization lin = linearize(scene, model, start->state, options.at_rest ? Laws::hold : Laws::go_on);
+  if (!start->note.empty()) lin.notes.push_back(start->note);
   waiting.end();
 
   now_doing("writing the results");
@@ -126,18 +140,7 @@ int linearize(const Options& options) {
   if (options.json) {
     std::cout << linearized_json(scene, lin);
   } else if (!options.quiet) {
-    std::cout << (scene.title.empty() ? scene.file : scene.title) << "\n";
-    print_rows(std::cout, {{"about", about_text(options, lin)},
-                           {"free coordinates", std::to_string(lin.independent.size()) + " of " + std::to_string(lin.coordinates.size())},
-                           {"state space", std::to_string(lin.space.states.size()) + " states, " + std::to_string(lin.space.inputs.size()) +
-                                               " inputs, " + std::to_string(lin.space.outputs.size()) + " outputs"}});
-    std::cout << std::flush;
-    if (!lin.modes.empty()) print_modes(lin, options.count);
-    for (const std::string& n : lin.notes) std::cout << "  note: " << n << "\n";
-    for (const std::string& w : model.warnings) std::cout << "  warning: " << w << "\n";
-    print_rows(std::cout, {{"results", out.string() + (options.frames > 0 && !lin.modes.empty()
-                                                           ? ", animations " + (out / "mode_01/mechanism.pvd").string() + " …"
-                                                           : "")}});
+    print_linearization(options, scene, model, lin, out);
   }
   return ok;
 }

@@ -1,22 +1,19 @@
 // The command line. Thin: a user of the library can do everything that it does.
 #include <CLI/CLI.hpp>
-#include <sys/resource.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <map>
 #include <new>
 
 #include "app/command_options.h"
+#include "app/failure.h"
 #include "app/options.h"
 #include "app/mistyped.h"
 #include "app/progress.h"
 #include "framework/common/library_threads.h"
-#include "framework/scene/error.h"
-#include "meshes/limits.h"
 
 namespace {
 
@@ -42,13 +39,6 @@ constexpr const char* exit_codes =
     "  pintle film worn worn.mp4\n"
     "  paraview worn/mechanism.pvd\n"
     "  pintle modes examples/modes_eye_bar.yaml --count 8\n";
-
-/// Largest memory that the program has used.
-long most_megabytes() {
-  struct rusage used {};
-  ::getrusage(RUSAGE_SELF, &used);
-  return used.ru_maxrss >> 10;
-}
 
 int carry_out(int argc, char** argv) {
   CLI::App app(
@@ -81,7 +71,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("static",
                           "Solve the static load case of one body of elements, or of several in contact (for a whole mechanism: statics)"),
        statics},
-      {app.add_subcommand("mesh", "Mesh one body of elements and judge the mesh"), mesh}};
+      {app.add_subcommand("mesh", "Mesh one body of elements and check the mesh quality"), mesh}};
   for (const auto& [command, unused] : commands) add_options(*command, options);
   try {
     app.parse(argc, argv);
@@ -99,19 +89,12 @@ int carry_out(int argc, char** argv) {
   return exit == ok ? trouble : exit;
 }
 
-void say_there_was_no_memory() {
-  std::fprintf(stderr,
-               "pintle: there was not enough memory while %s (the program held %ld MB); end other programs, raise the limit (ulimit -v), "
-               "or make the model or its outputs smaller%s\n",
-               what_is_done(), most_megabytes(), where_results_are());
-}
-
 /// For lack of memory so severe that not even an error can be reported normally.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr e = std::current_exception()) std::rethrow_exception(e);
   } catch (const std::bad_alloc&) {
-    say_there_was_no_memory();
+    report_lack_of_memory();
     std::_Exit(trouble);
   } catch (...) {
   }
@@ -127,23 +110,5 @@ int main(int argc, char** argv) {
   tell_of_crashes();
   keep_memory_in_reserve();
   std::set_terminate(end_without_memory);
-  try {
-    return carry_out(argc, argv);
-  } catch (const SceneError& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return bad_scene;
-  } catch (const AssemblyError& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return no_assembly;
-  } catch (const MeshingStopped&) {
-    std::cerr << "pintle: stopped while a body was being meshed\n";
-    return stopped;
-  } catch (const std::bad_alloc&) {
-    say_there_was_no_memory();
-    return trouble;
-  } catch (const std::exception& e) {
-    const bool says_where = std::strstr(e.what(), "the results are in") != nullptr;
-    std::cerr << "pintle: " << e.what() << (says_where ? "" : where_results_are()) << "\n";
-    return trouble;
-  }
+  return exit_code_of([&] { return carry_out(argc, argv); });
 }

@@ -16,6 +16,7 @@
 #include "framework/analysis/simulate/identity.h"
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/bodies/segments.h"
+#include "framework/common/some_of.h"
 #include "framework/build/build.h"
 #include "framework/output/results.h"
 #include "framework/output/room.h"
@@ -57,13 +58,8 @@ void add_happenings(const Run& run, Rows& rows) {
 }
 
 void add_never_came(const Scene& scene, const Run& run, Rows& rows) {
-  constexpr std::size_t most = 8;
-  const std::vector<std::string> names = never_came(scene, run);
-  if (names.empty()) return;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) text += (k > 0 ? ", " : "") + names[k];
-  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more, all in run.json";
-  rows.emplace_back("events that never came", text);
+  if (const std::vector<std::string> names = never_came(scene, run); !names.empty())
+    rows.emplace_back("events that never came", some_of(names, false));
 }
 
 void print_run(const Scene& scene, const Model& model, const Run& run, const fs::path& out) {
@@ -102,10 +98,10 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
   print_rows(std::cout, rows);
   for (const std::string& w : run.warnings) std::cout << "  warning: " << w << "\n";
   std::cout << "  " << status_text(run.status) << (run.reason.empty() ? "" : ": " + run.reason) << "\n";
-  const bool judged = run.status == Status::finished || run.status == Status::ledger_over_bound;
-  std::cout << "  unexplained energy" << (judged ? "" : " so far") << ": " << number(run.unexplained, 3) << " J, "
+  const bool checked = run.status == Status::finished || run.status == Status::ledger_over_bound;
+  std::cout << "  unexplained energy" << (checked ? "" : " so far") << ": " << number(run.unexplained, 3) << " J, "
             << number(run.energy_in_play > 0 ? std::abs(run.unexplained) / run.energy_in_play : 0, 3) << " of the energy in play"
-            << (judged ? "" : "; not judged, because the run has not finished") << "\n";
+            << (checked ? "" : "; not checked, because the run has not finished") << "\n";
 }
 
 Scene runnable(const Options& options) {

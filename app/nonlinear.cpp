@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "framework/common/file.h"
+#include "framework/common/text.h"
 #include "framework/plots/plot.h"
 
 namespace pintle::app {
@@ -16,8 +17,6 @@ namespace pintle::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 std::string words_of_period(std::size_t period) { return period == 0 ? "no period found" : "period " + std::to_string(period); }
 
@@ -230,7 +229,7 @@ int nonlinear(const Options& options) {
   const fs::path out = study_directory(options, "-nonlinear");
   SweepSettings settings;
   settings.threads = thread_count(options);
-  heed_signals();
+  handle_signals();
   SweepEnd end;
   now_doing("following the motion");
   {
@@ -245,7 +244,7 @@ int nonlinear(const Options& options) {
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.whole) {
     std::cerr << study.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
-              << study.size() << " values; the same command goes on from here\n";
+              << study.size() << " values; the same command continues from here\n";
     return stopped;
   }
   const std::vector<FollowedValue> values = followed(study, end.rows);

@@ -2,10 +2,10 @@
 
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 #include <thread>
 
 #include "files/trust.h"
+#include "framework/common/text.h"
 #include "framework/output/results_directory.h"
 #include "framework/scene/units/expression.h"
 #include "meshes/limits.h"
@@ -54,11 +54,7 @@ double instant(const Options& options) {
   }
 }
 
-std::string number(double x, int digits) {
-  std::ostringstream s;
-  s << std::setprecision(digits) << x;
-  return s.str();
-}
+std::string number(double x, int digits) { return number_text(x, digits); }
 
 void print_rows(std::ostream& out, const Rows& rows) {
   std::size_t width = 0;

@@ -12,6 +12,7 @@
 #include <vtkObject.h>
 #include <CLI/CLI.hpp>
 
+#include "app/failure.h"
 #include "app/ffmpeg.h"
 #include "app/field_picture.h"
 #include "app/film.h"
@@ -19,6 +20,7 @@
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/scene/error.h"
 
 namespace {
 
@@ -159,7 +161,7 @@ std::string fields_in(const fs::path& file) {
 }
 
 /// @throws std::invalid_argument  the input is not a folder of results but an unsuitable file
-void judge_input(const CLI::App& command, const Choice& choice, bool film) {
+void validate_input(const CLI::App& command, const Choice& choice, bool film) {
   const fs::path& given = choice.drawn.directory;
   if (!fs::is_regular_file(given)) return;
   const std::string ending = given.extension().string(), folder = given.has_parent_path() ? given.parent_path().string() : ".";
@@ -189,7 +191,7 @@ int write(const CLI::App& command, Choice& choice) {
   if (command.count("--size") > 0) read_size(choice.size, drawn.style);
   if (choice.deformation > 0) drawn.deformation = choice.deformation;
   if (choice.speed > 0) choice.film.speed = choice.speed;
-  judge_input(command, choice, film);
+  validate_input(command, choice, film);
   if (film) {
     if (write_film(drawn, choice.film)) return app::ok;
     std::cerr << "pintle: " << app::stopped_by() << "; there is no film\n";
@@ -203,7 +205,7 @@ int write(const CLI::App& command, Choice& choice) {
 }
 
 /// @throws std::invalid_argument  the file does not end as what the command makes
-void judge_ending(const std::string& name, const fs::path& file) {
+void validate_ending(const std::string& name, const fs::path& file) {
   if (name == "pintle film" && !FilmFile::is_film(file))
     throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
   if (name == "pintle picture" && file.extension() != ".png")
@@ -229,14 +231,12 @@ int main(int argc, char** argv) {
     return app::end_of(command, e, argc, argv);
   }
   vtkObject::GlobalWarningDisplayOff();  // errors are reported below, once
-  try {
-    judge_ending(name, choice.drawn.file);
-    return write(command, choice);
-  } catch (const std::invalid_argument& e) {
-    std::cerr << "pintle: " << e.what() << '\n';
-    return app::bad_scene;
-  } catch (const std::exception& e) {
-    std::cerr << "pintle: " << e.what() << '\n';
-    return app::trouble;
-  }
+  return app::exit_code_of([&] {
+    try {
+      validate_ending(name, choice.drawn.file);
+      return write(command, choice);
+    } catch (const std::invalid_argument& e) {
+      throw SceneError(e.what());  // the command line is wrong
+    }
+  });
 }

@@ -122,7 +122,7 @@ std::vector<Panel> panels_of(const Options& options, bool one_each) {
     const fs::path table = table_with(tables, name);
     const PlottedColumn y = read_column(table, name, against != "t");
     if (against != "t" && y.t != x.t)
-      throw SceneError("--against " + against + ": stands in another table than " + pintle::quoted(name) +
+      throw SceneError("--against " + against + ": is in another table than " + pintle::quoted(name) +
                        ", with other rows; name one of the same");
     const std::string unit = one_each ? std::to_string(out.size()) : y.name.unit;
     if (!of_unit.contains(unit)) {

@@ -117,7 +117,7 @@ void tell_of_crashes() {
   }
 }
 
-void heed_signals() {
+void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal);
   MesherLimits limits = mesher_limits();
   limits.stop = asked_to_stop;
@@ -156,7 +156,7 @@ void results_are_in(const std::string& folder) {
 
 const char* where_results_are() { return !kept.empty() && ::access(kept.c_str(), F_OK) == 0 ? kept_note.c_str() : ""; }
 
-StatusLine::StatusLine(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { heed_signals(); }
+StatusLine::StatusLine(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO)) { handle_signals(); }
 
 StatusLine::~StatusLine() {
   if (shown_) std::cerr << "\r\033[K" << std::flush;

@@ -22,7 +22,7 @@ void tell_of_crashes();
 
 /// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program, but are reported by asked_to_stop; the
 /// second one ends it. Signals ignored by the caller (nohup) remain ignored.
-void heed_signals();
+void handle_signals();
 bool asked_to_stop();
 /// "stopped by the user (Ctrl-C)", or the signal received.
 std::string stopped_by();

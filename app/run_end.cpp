@@ -59,7 +59,7 @@ void tell_leftovers(const Options& options, const fs::path& out) {
 }
 
 void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {
-  heed_signals();  // computed results are written first
+  handle_signals();  // computed results are written first
   now_doing("writing the results");
   tell_leftovers(options, out);
   ResultsDirectory results(out);

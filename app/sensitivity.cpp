@@ -77,14 +77,14 @@ int sensitivity(const Options& options) {
   const fs::path out = study_directory(options, "-sensitivity");
   SweepSettings settings;
   settings.threads = thread_count(options);
-  heed_signals();
+  handle_signals();
   settings.progress = [](const SweepCount&) { return !asked_to_stop(); };
   now_doing("running the cases");
   const SweepEnd end = run_sweep(plan.sweep, out, settings);
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.whole) {
     std::cerr << plan.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
-              << plan.sweep.cases.size() << " cases; the same command goes on from here\n";
+              << plan.sweep.cases.size() << " cases; the same command continues from here\n";
     return stopped;
   }
   const std::vector<MeasureSensitivity> all = sensitivities(plan, end.rows);

@@ -51,7 +51,7 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
                           (end.workers > 1 ? " workers, busy " + number(100 * end.efficiency(), 3) + " % of the time" : " worker"));
   rows.emplace_back("table", (out / (end.whole ? "sweep.csv" : "sweep-so-far.csv")).string());
   print_rows(std::cout, rows);
-  if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
+  if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command continues from here\n";
 }
 
 /// There are cases, and each was rejected or failed.
@@ -86,7 +86,7 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   else if (!options.quiet)
     print(sweep, end, out);
   if (!end.whole && (options.quiet || options.json))
-    std::cerr << sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command goes on from here\n";
+    std::cerr << sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command continues from here\n";
   if (!end.whole) return stopped;
   if (none_ran(end)) {
     std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "

@@ -77,7 +77,7 @@ Asked understood(const Options& options) {
                        ": no quantity is named; say what matters, for example --quantity \"peak force at JOINT\" or --quantity \"energy "
                        "lost\" (docs/studies.md)");
     asked.measures = asked_quantities(options);
-    judge(asked.measures, common_scene(asked.scene));
+    validate(asked.measures, common_scene(asked.scene));
     asked.plan = suggested_plan(asked.scene);
   }
   validate_measures(asked.scene, asked.plan, asked.measures);

@@ -15,11 +15,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-// w = q + M z + d z₀, d > 0, as a tableau [basic | w z z₀ | rhs] that is pivoted; the variables are numbered w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
+// Lemke's method for w = q + M z + d z₀, d > 0, with pivots on the tableau [w z z₀ | right-hand side]. Variables are numbered
+// w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
 class Lemke {
  public:
-  enum class Ties { largest_pivot, ordered };  ///< exact where there are few; without circles where there are many
-  /// @param least_pivot  less of a column's greatest is rounding
+  enum class Ties { largest_pivot, ordered };  ///< the first loses fewer digits; the second cannot cycle
+  /// @param least_pivot  relative to the largest entry of the column; smaller entries are rounding
   Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d, Ties ties, double least_pivot)
       : n_(q.size()),
         table_(n_, 2 * n_ + 2),
@@ -51,7 +52,7 @@ class Lemke {
   Index rhs() const { return 2 * n_ + 1; }
   Index& basic(Index row) { return basic_[static_cast<std::size_t>(row)]; }
 
-  // What is left of a difference of like numbers is rounding, and none: it would else break ties of degenerate problems by chance.
+  // A difference of nearly equal numbers is rounding and is set to 0; otherwise it would break the ties of degenerate problems at random.
   void pivot(Index row, Index enters) {
     constexpr double rounding = 4e-15;
     table_.row(row) /= table_(row, enters);
@@ -66,7 +67,7 @@ class Lemke {
     basic(row) = enters;
   }
 
-  // The row that has come to 0 last when z₀ has grown so far that all are there; of several the first, as below.
+  // The row that z₀ leaves from first: the one that needs the largest z₀; among equal rows the last.
   Index first() {
     constexpr double tie = 1e-12;
     const VectorXd ratio = table_.col(rhs()).cwiseQuotient(-table_.col(z0()));
@@ -76,8 +77,8 @@ class Lemke {
     return row;
   }
 
-  // The row that comes to 0 first as the variable grows; of several z₀'s, else that of the largest pivot, or the first as their rows of
-  // the inverse of the basis are ordered, by which pivots cannot go round in circles [CottlePangStone1992, 4.9].
+  // Ratio test: the row whose basic variable reaches 0 first as the entering variable grows. Ties: the row of z₀; otherwise the largest
+  // pivot, or the lexicographic order of the rows of the inverse basis, with which pivots cannot cycle [CottlePangStone1992, 4.9].
   std::optional<Index> blocking(Index enters) {
     const double size = std::max(table_.col(enters).cwiseAbs().maxCoeff(), 1.0);
     std::optional<Index> best;
@@ -98,7 +99,7 @@ class Lemke {
     return false;
   }
 
-  // But for rounding z₀ is 0, as where forces have to balance and cannot in all digits.
+  // z₀ is 0 within rounding, as where forces must balance but cannot do so in all digits.
   bool is_solved() {
     constexpr double rounding = 1e-12;
     for (Index i = 0; i < n_; ++i)
@@ -115,16 +116,16 @@ class Lemke {
 
   Index n_;
   MatrixXd table_;
-  double most_;               ///< of q
+  double most_;               ///< largest magnitude of q
   std::vector<Index> basic_;  ///< variable of each row
   Ties ties_;
   double least_pivot_;
 };
 
-// Of all that pivots find, what is no solution: they lose digits, and what is left at a ray need be none.
+// Checks a result: pivots lose digits, and the point at which the method ends on a ray need not be a solution.
 bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
-  // Of some hundred pivots each loses a few roundings, 1e-16, of the greatest number in the tableau, which may be 1e6 times q: half of the
-  // digits of q is what is left for certain. A row's own sum of n products is known to n roundings of its terms.
+  // Each of some hundred pivots loses a few units of 1e-16 of the largest number in the tableau, which may be 1e6 times q: only half of the
+  // digits of q are certain. The sum of n products in a row is known to n roundings of its terms.
   constexpr double enough = 1e-8, rounding = 1e-13;
   if (!z.allFinite()) return false;
   const VectorXd w = M * z + q, none = enough * q.cwiseAbs().maxCoeff() + (rounding * (M.cwiseAbs() * z)).array();
@@ -135,15 +136,15 @@ bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
 
 }  // namespace
 
-// Where several variables come to 0 at once, as redundant contacts of bodies at rest have it, pivots may go round in circles: ordered ties
-// do not, but may take small pivots. Those of another d go another way.
+// If several variables reach 0 at once, as with redundant contacts of bodies at rest, pivots may cycle. Ordered ties cannot cycle, but may
+// take small pivots. Another d takes other pivots.
 std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd& q) {
   constexpr double golden = 0.6180339887498949;
   constexpr int ways = 6;
   if (q.size() == 0) return q;
   VectorXd d = VectorXd::Ones(q.size());
   for (int way = 0; way < ways; ++way) {
-    const double least_pivot = way < ways / 2 ? 1e-12 : 1e-15;  // the latter where bodies are wedged at an angle of the root of it
+    const double least_pivot = way < ways / 2 ? 1e-12 : 1e-15;  // the second for bodies wedged at an angle of its root
     for (const Lemke::Ties ties : {Lemke::Ties::largest_pivot, Lemke::Ties::ordered})
       if (const auto z = Lemke(M, q, d, ties, least_pivot).solve(); z && solves(M, q, *z)) return z;
     for (Index i = 0; i < d.size(); ++i) {
@@ -156,11 +157,11 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
 
 namespace {
 
-// W and c without the directions of forces that hardly move anything, as of a row of discs from wall to wall that is straight but for an
-// angle of 1e-5: of c = Jᵀ v and W = Jᵀ A J what a J without these has. @returns false where there are none
+// Removes from W = Jᵀ A J and c = Jᵀ v the directions of forces that hardly move anything, such as the one along a row of discs between
+// two walls that is straight to an angle of 1e-5. @returns false if there are none
 bool leave_out_faint(MatrixXd& W, VectorXd& c) {
-  // W between unit contacts is known to 1e-15 to 1e-13: rounding of sums, and what the joints' factor loses. An eigenvalue of 1e-10 is known to
-  // a thousandth then, and so is a force along it; a row of bodies has it that bends by 1e-5, for it goes with the square of the angle.
+  // With a diagonal of 1, W is known to 1e-15 to 1e-13: rounding of sums, and the loss in the factor of the joints. An eigenvalue of 1e-10, and
+  // a force along it, is then known to a thousandth. A row of bodies that bends by 1e-5 has such an eigenvalue: it is the angle squared.
   constexpr double faint = 1e-10;
   const VectorXd unit = W.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(unit.asDiagonal() * W * unit.asDiagonal());
@@ -173,12 +174,12 @@ bool leave_out_faint(MatrixXd& W, VectorXd& c) {
   return true;
 }
 
-// T = T⁺ − T⁻. Unknown z = (N, T⁺, T⁻, u) against (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), u the speed of a slip, each over the
-// root of its own W. Without what slides zᵀM z = xᵀW x + uᵀμN ≥ 0, so that Lemke's method finds the impulses of an impact
-// [AnitescuPotra1997, theorem 1].
+// T = T⁺ − T⁻. The unknowns z = (N, T⁺, T⁻, u) are complementary to (g, u + slip, u − slip, μ(N + N₀) − T⁺ − T⁻), with u the sliding
+// speed. Each is scaled by the root of its diagonal entry of W. Without sliding contacts zᵀM z = xᵀW x + uᵀμN ≥ 0, so that Lemke's method
+// finds the impulses of an impact [AnitescuPotra1997, theorem 1].
 struct Unilateral {
   VectorXd x;
-  double greatest;  ///< z, of what alone would stop the fastest of c
+  double greatest;  ///< largest entry of z; 1: the force that alone would stop the fastest of c
 };
 std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
   const auto n = static_cast<Index>(contacts.size());
@@ -188,34 +189,34 @@ std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> co
   // x = X z + x₀
   MatrixXd X = MatrixXd::Zero(c.size(), size);
   VectorXd x0 = VectorXd::Zero(c.size());
-  for (Index i = 0, forth = n; i < n; ++i) {
+  for (Index i = 0, plus = n; i < n; ++i) {
     const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
     X(k.normal, i) = 1;
     if (k.sliding >= 0) X(k.sliding, i) = -k.direction * k.mu;
     if (k.sliding >= 0) x0[k.sliding] = -k.direction * k.mu * k.preload;
     if (k.tangent < 0) continue;
-    X(k.tangent, forth) = 1;
-    X(k.tangent, forth++ + m) = -1;
+    X(k.tangent, plus) = 1;
+    X(k.tangent, plus++ + m) = -1;
   }
   const MatrixXd respond = W * X;
   const VectorXd at_rest = W * x0 + c;
   const auto unit_of = [&](int of) { return 1 / std::sqrt(std::max(W(of, of), std::numeric_limits<double>::min())); };
   MatrixXd M = MatrixXd::Zero(size, size);
   VectorXd q = VectorXd::Zero(size), unit = VectorXd::Ones(size);
-  for (Index i = 0, forth = n; i < n; ++i) {
+  for (Index i = 0, plus = n; i < n; ++i) {
     const UnilateralContact& k = contacts[static_cast<std::size_t>(i)];
     M.row(i) = respond.row(k.normal);
     q[i] = at_rest[k.normal];
     unit[i] = unit_of(k.normal);
     if (k.tangent < 0) continue;
-    const Index back = forth + m, slip = back + m;
-    M.row(forth) = respond.row(k.tangent), M.row(back) = -respond.row(k.tangent);
-    q[forth] = at_rest[k.tangent], q[back] = -at_rest[k.tangent], q[slip] = k.mu * k.preload;
-    M(forth, slip) = M(back, slip) = 1;
-    M(slip, i) = k.mu, M(slip, forth) = M(slip, back) = -1;
-    unit[forth] = unit[back] = unit_of(k.tangent);
-    unit[slip] = 1 / unit[forth];
-    ++forth;
+    const Index minus = plus + m, slip = minus + m;
+    M.row(plus) = respond.row(k.tangent), M.row(minus) = -respond.row(k.tangent);
+    q[plus] = at_rest[k.tangent], q[minus] = -at_rest[k.tangent], q[slip] = k.mu * k.preload;
+    M(plus, slip) = M(minus, slip) = 1;
+    M(slip, i) = k.mu, M(slip, plus) = M(slip, minus) = -1;
+    unit[plus] = unit[minus] = unit_of(k.tangent);
+    unit[slip] = 1 / unit[plus];
+    ++plus;
   }
   const double most = q.cwiseProduct(unit).cwiseAbs().maxCoeff();
   if (!(most > 0)) return Unilateral{x0, 0};
@@ -226,10 +227,10 @@ std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> co
 
 }  // namespace
 
-// Where more contacts are closed than bodies can tell apart, or nearly so, rounding may leave the problem without a solution, or with one of
-// forces that are out of all proportion.
+// If more contacts are closed than the motion of the bodies can distinguish, or nearly so, rounding may leave the problem without a solution
+// or with enormous forces.
 std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
-  // Forces so great that cancel to 1 leave a rounding of 1e-16 times them, the 1e-8 that `solves` lets pass: beyond, nothing is known of them.
+  // Forces of 1e8 that cancel to 1 leave a rounding of 1e-8, which `solves` allows. Larger ones are unknown.
   constexpr double great = 1e8;
   const auto found = solve_unilateral(contacts, W, c);
   if (found && found->greatest <= great) return found->x;
@@ -240,8 +241,8 @@ std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> con
   return found ? std::optional(found->x) : std::nullopt;
 }
 
-// The conditions G x ≥ 0 of normal forces, and of friction a little within its limit, which is then not met.
-// min ½|y|² + κ s of G(x + Z y) + s ≥ 0, s ≥ 0: s is 0 where some y makes it so, for κ is more than what presses there.
+// G x ≥ 0 are the conditions of the normal forces, and of friction slightly below its limit, so that the limit is not reached.
+// Minimises ½|y|² + κ s subject to G(x + Z y) + s ≥ 0, s ≥ 0. If some y allows s = 0, s is 0, because κ is larger than the multipliers.
 VectorXd admissible_forces(std::span<const UnilateralContact> contacts, const VectorXd& x, const MatrixXd& Z) {
   constexpr double within = 2e-9, kappa = 1e4;
   const double most = x.cwiseAbs().maxCoeff(), reach = Z.size() > 0 ? Z.cwiseAbs().maxCoeff() : 0;
@@ -249,7 +250,7 @@ VectorXd admissible_forces(std::span<const UnilateralContact> contacts, const Ve
   Index m = 0;
   for (const UnilateralContact& k : contacts) m += k.tangent < 0 ? 1 : 3;
   MatrixXd G = MatrixXd::Zero(m, x.size());
-  VectorXd allowed = VectorXd::Ones(m);  // of s
+  VectorXd allowed = VectorXd::Ones(m);  // weights of s
   bool meets = true;
   Index row = 0;
   for (const UnilateralContact& k : contacts) {

@@ -18,13 +18,13 @@ void require(bool holds, const char* name, double value, const std::string& rule
   throw std::invalid_argument(text.str());
 }
 
-void judge(const Isotropic& m) {
+void validate(const Isotropic& m) {
   require(m.young > 0, "young", m.young, "positive [Pa]");
   require(m.poisson > -1 && m.poisson < 0.5, "poisson", m.poisson, "above −1 and below 0.5; take 0.4999 for a nearly incompressible solid");
 }
 
 // Tension along either axis gives elongation, whatever the other stress.
-void judge(const Orthotropic& m) {
+void validate(const Orthotropic& m) {
   require(m.young_1 > 0, "young_1", m.young_1, "positive [Pa]");
   require(m.young_2 > 0, "young_2", m.young_2, "positive [Pa]");
   require(m.shear_12 > 0, "shear_12", m.shear_12, "positive [Pa]");
@@ -34,9 +34,9 @@ void judge(const Orthotropic& m) {
           "young_1/young_2 times gives poisson_12");
 }
 
-void judge(const Material& m) {
+void validate(const Material& m) {
   require(m.density >= 0, "density", m.density, "positive, or 0 for no mass [kg/m³]");
-  std::visit([](const auto& elastic) { judge(elastic); }, m.elastic);
+  std::visit([](const auto& elastic) { validate(elastic); }, m.elastic);
 }
 
 PlaneMaterial plane(const Isotropic& m, PlaneState state) {
@@ -104,12 +104,12 @@ BeamModuli along(const Orthotropic& m, double direction) {
 }  // namespace
 
 PlaneMaterial plane_material(const Material& m, PlaneState state) {
-  judge(m);
+  validate(m);
   return std::visit([&](const auto& elastic) { return plane(elastic, state); }, m.elastic);
 }
 
 BeamModuli beam_moduli(const Material& m, double direction) {
-  judge(m);
+  validate(m);
   return std::visit([&](const auto& elastic) { return along(elastic, direction); }, m.elastic);
 }
 

@@ -15,19 +15,13 @@ namespace {
 
 bool is_set_before(FmuVariable::Kind kind) { return kind == FmuVariable::parameter || kind == FmuVariable::input; }
 
-std::string written_exactly(double x) {
-  std::string out;
-  append_number(out, x);
-  return out;
-}
-
 Scene scene_of(const FmuContents& contents, const std::filesystem::path& resources, const FmuSettings& settings) {
   Overrides set = contents.set;
   for (std::size_t v = 0; v < contents.variables.size(); ++v)
     if (contents.variables[v].kind == FmuVariable::parameter && settings.values[v])
-      set.emplace_back(contents.variables[v].of, written_exactly(*settings.values[v]));
-  if (settings.tolerance) set.emplace_back("run.tolerance", written_exactly(*settings.tolerance));
-  if (settings.stop) set.emplace_back("run.until", written_exactly(*settings.stop));
+      set.emplace_back(contents.variables[v].of, number_exactly(*settings.values[v]));
+  if (settings.tolerance) set.emplace_back("run.tolerance", number_exactly(*settings.tolerance));
+  if (settings.stop) set.emplace_back("run.until", number_exactly(*settings.stop));
   Scene scene = read_scene(resources / "scene" / contents.scene, set);
   for (std::size_t v = 0; v < contents.variables.size(); ++v)
     for (SceneState& state : scene.states)
@@ -42,7 +36,7 @@ std::size_t found(const std::string& of, const std::vector<std::string>& names) 
   if (at == names.end())
     throw FmuError("with these parameters the scene has no \"" + of +
                    "\", which the unit was made with; keep those that change what the "
-                   "mechanism is made of as they were, or export the scene anew with --set");
+                   "mechanism is made of as they were, or export the scene again with --set");
   return static_cast<std::size_t>(at - names.begin());
 }
 
@@ -227,7 +221,7 @@ const std::vector<double>& FmuInstance::row() {
   if (!simulation_) return row_;
   if (mode_ != FmuMode::initialization) apply_inputs();
   if (row_.empty()) row_ = simulation_->now();
-  if (row_.empty()) throw FmuError("the motion here cannot be evaluated (a singular pose, or numbers beyond what a double holds)");
+  if (row_.empty()) throw FmuError("the motion here cannot be evaluated (a singular configuration, or numbers beyond what a double holds)");
   return row_;
 }
 

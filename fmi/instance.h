@@ -16,7 +16,7 @@
 
 namespace pintle::fmi {
 
-/// What the importer asked for cannot be; says why and what to do.
+/// The request of the importer is impossible; the message gives the reason and the remedy.
 struct FmuError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -24,14 +24,14 @@ struct FmuError : std::runtime_error {
 /// The modes of the standard's state machine of co-simulation.
 enum class FmuMode { instantiated, initialization, event, step, terminated };
 
-/// What the importer sets before the start; the rest follows from it.
+/// Settings of the importer before the start; everything else follows from them.
 struct FmuSettings {
-  std::vector<std::optional<double>> values;  ///< of parameters and, as they start, inputs; by value reference
+  std::vector<std::optional<double>> values;  ///< of parameters and start values of inputs; by value reference
   std::optional<double> tolerance, stop;
   bool operator==(const FmuSettings&) const = default;
 };
 
-/// A scene made ready to run, and where the variables are in it.
+/// A scene prepared for a run, with the places of the variables in it.
 struct FmuPrepared {
   FmuSettings settings;
   Scene scene;
@@ -40,20 +40,20 @@ struct FmuPrepared {
   std::vector<std::size_t> place;  ///< of a column in a row, of an input among the states, of a parameter among the scene's
 };
 
-/// What an instance goes on from.
+/// State from which an instance continues.
 struct FmuState {
   FmuMode mode = FmuMode::instantiated;
   FmuSettings settings;
   double time = 0;
-  std::vector<double> inputs;       ///< as they are set
-  std::vector<double> applied;      ///< as the run has them
+  std::vector<double> inputs;       ///< as set by the importer
+  std::vector<double> applied;      ///< as applied in the run
   std::vector<int> shown;           ///< discrete values that the importer sees
-  std::optional<SavedState> saved;  ///< of a run that goes on
-  std::vector<double> row;          ///< of one that does not
+  std::optional<SavedState> saved;  ///< of a run that continues
+  std::vector<double> row;          ///< last row of a run that has ended
   std::string over;
 };
 
-/// How far a step has come.
+/// Where and why a step ended.
 struct StepEnd {
   double time = 0;
   bool event = false, terminate = false, early = false;
@@ -111,7 +111,7 @@ class FmuInstance {
   Tally tally_;
   std::vector<int> shown_;
   std::vector<double> row_;  ///< of now; empty: to be found
-  std::string over_;         ///< why the run is; empty: it goes on
+  std::string over_;         ///< why the run is over; empty: it continues
 };
 
 }  // namespace pintle::fmi

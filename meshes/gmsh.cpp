@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_script_bytes = std::size_t{100} << 20;  // of a script
 constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30;
 
-void judge(const std::string& name, const MeshOptions& o, double scale) {
+void validate(const std::string& name, const MeshOptions& o, double scale) {
   if (corners_of(o.shape) == 2)
     reject(name, ": cells of shape ", name_of(o.shape), "; a plane body is made of triangles or quadrilaterals");
   const auto not_negative = [&](const char* what, double value) {
@@ -79,7 +79,7 @@ MesherTask task_for(const MeshOptions& o) {
 
 Mesh mesh_link(const Link& link, const MeshOptions& o) {
   judge(link);
-  judge("link", o, 1);
+  validate("link", o, 1);
   if (std::optional<Mesh> mesh = lattice_link(link, o)) return *std::move(mesh);
   MesherTask task = task_for(o);
   task.link = link;
@@ -88,7 +88,7 @@ Mesh mesh_link(const Link& link, const MeshOptions& o) {
 
 Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, const fs::path& folder) {
   const std::string name = path.string(), kind = path.extension().string();
-  judge(name, o, scale);
+  validate(name, o, scale);
   if (kind != ".geo" && kind != ".step" && kind != ".stp" && kind != ".brep" && kind != ".msh")
     reject(name, ": \"", kind, "\" is not a known kind of drawing; use .geo, .step, .stp, .brep or .msh");
   std::string text;

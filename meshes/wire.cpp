@@ -184,14 +184,14 @@ T read_back(std::string_view bytes) {
 }
 
 // Users of the mesh rely on this, and the process that made it has read a file of unknown origin.
-void judge(const std::vector<int>& nodes, std::size_t count) {
+void validate(const std::vector<int>& nodes, std::size_t count) {
   if (std::ranges::any_of(nodes, [&](int n) { return n < 0 || static_cast<std::size_t>(n) >= count; })) spoilt();
 }
-void judge(const std::vector<Cells>& blocks, std::size_t count) {
+void validate(const std::vector<Cells>& blocks, std::size_t count) {
   for (const Cells& c : blocks) {
     if (c.shape < CellShape::line2 || c.shape > CellShape::quadrilateral9) spoilt();
     if (c.nodes.size() != c.numbers.size() * static_cast<std::size_t>(nodes_of(c.shape))) spoilt();
-    judge(c.nodes, count);
+    validate(c.nodes, count);
   }
 }
 
@@ -205,8 +205,8 @@ Mesh unpacked_mesh(std::string_view bytes) {
   Mesh mesh = read_back<Mesh>(bytes);
   const std::size_t count = static_cast<std::size_t>(mesh.x.cols());
   if (mesh.node_numbers.size() != count) spoilt();
-  judge(mesh.cells, count);
-  for (const Group& g : mesh.groups) judge(g.nodes, count), judge(g.sides, count);
+  validate(mesh.cells, count);
+  for (const Group& g : mesh.groups) validate(g.nodes, count), validate(g.sides, count);
   return mesh;
 }
 

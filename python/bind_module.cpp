@@ -25,7 +25,7 @@ void raise_placed(const char* name, const Error& e) {
 bool stop_meshing() {
   const py::gil_scoped_acquire held;
   if (PyErr_CheckSignals() == 0) return false;
-  PyErr_Clear();  // MeshingStopped tells of it
+  PyErr_Clear();  // MeshingStopped reports it
   return true;
 }
 

@@ -1,4 +1,4 @@
-// Questions without a motion: rest, small motion, modes of one body.
+// Analyses without a run: static equilibrium, linearisation, modes of one body.
 #include <numbers>
 
 #include "framework/analysis/linearize/linearize.h"
@@ -19,7 +19,7 @@ struct Rest {
 struct SmallMotionResult {
   std::shared_ptr<const Prepared> of;
   Linearization found;
-  std::string trouble = {};  ///< why there is none
+  std::string trouble = {};  ///< why there is no result
 };
 
 struct BodyModes {
@@ -33,7 +33,7 @@ std::shared_ptr<Rest> rest(const SceneSource& source, double at) {
   return std::make_shared<Rest>(Rest{p, find_equilibrium(p->scene, p->model, p->assembly, at)});
 }
 
-/// What a linearisation is about, as `pintle linearize` has it.
+/// The state to linearise about, as in `pintle linearize`.
 State about(const SceneSource& source, const Prepared& p, std::optional<double> at, bool at_rest, SmallMotionResult& out) {
   if (at_rest) {
     const Equilibrium found = find_equilibrium(p.scene, p.model, p.assembly, at.value_or(0));

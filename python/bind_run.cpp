@@ -1,4 +1,4 @@
-// Runs, driven motions, inverse problems: analyses with a trajectory.
+// Analyses with a trajectory: runs, kinematics, inverse dynamics.
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/output/results.h"
@@ -17,7 +17,7 @@ struct InverseResult {
   std::shared_ptr<const Inverse> found;
 };
 
-/// compute(prepared, listeners) without the interpreter; a signal's exception is raised with what was computed.
+/// Calls compute(prepared, listeners) without holding the interpreter. If a signal handler raises an exception, it gets what was computed.
 template <class Compute>
 auto watched(const SceneSource& source, Question question, Compute compute) {
   Watch watch;
@@ -26,7 +26,7 @@ auto watched(const SceneSource& source, Question question, Compute compute) {
     Listeners listeners;
     listeners.progress = [&](double t) { return watch(t); };
     if (question == Question::kinematics)
-      listeners.frame = [](const State&, const Equations&) {};  // the motion goes through its frames' times
+      listeners.frame = [](const State&, const Equations&) {};  // so that the motion is computed at the times of frames
     return compute(prepared(source, question), listeners);
   }();
   watch.raise(py::cast(out));
@@ -67,7 +67,7 @@ py::list happenings(const RunResult& r) {
   return out;
 }
 
-/// Fills a new folder as the program does, but for frames and saved states.
+/// Writes the files of the program into a new folder, except frames and saved states.
 template <class Write>
 void write_new(const std::string& directory, Write write) {
   const py::gil_scoped_release free;

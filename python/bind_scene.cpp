@@ -1,4 +1,4 @@
-// Scenes: read from text, made ready for a question.
+// Scenes: read from text and prepared for an analysis.
 #include "files/trust.h"
 #include "framework/analysis/cost/cost_estimate.h"
 #include "framework/bodies/segments.h"
@@ -70,7 +70,7 @@ void trust(const std::vector<std::string>& folders, bool geo) {
 }  // namespace
 
 std::shared_ptr<const Prepared> prepared(const SceneSource& source, Question question) {
-  hold_library_threads();  // a run is the same on any number of cores
+  hold_library_threads();  // so that results do not depend on the number of cores
   Scene scene = source.scene;
   if (question == Question::run || question == Question::kinematics) require_run(scene);
   if (question == Question::kinematics) scene = ready_for_kinematics(std::move(scene));

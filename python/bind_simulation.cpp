@@ -1,4 +1,4 @@
-// A run by hand: on to a time, read, set, and on.
+// A run step by step: advance to a time, read, set, advance again.
 #include "framework/analysis/simulate/simulation.h"
 #include "python/bindings.h"
 
@@ -17,7 +17,7 @@ class ByHand {
     try {
       const py::gil_scoped_release free;
       on = simulation.advance(t);
-    } catch (...) {  // of a Python function, in the midst of a step
+    } catch (...) {  // an exception of a Python function during a step
       run_.reset();
       throw;
     }
@@ -54,7 +54,7 @@ class ByHand {
 
   std::shared_ptr<const Prepared> of_;
   Watch watch_;
-  std::unique_ptr<Simulation> run_;  ///< none once it is finished
+  std::unique_ptr<Simulation> run_;  ///< empty when it has finished
   std::shared_ptr<RunResult> found_;
 };
 

@@ -1,4 +1,4 @@
-// Studies: many runs of one scene, as a study file asks for.
+// Studies: the many runs of a study file.
 #include "framework/report/run_report.h"
 #include "framework/study/fit/fit.h"
 #include "framework/study/sweep/sweep.h"
@@ -25,8 +25,8 @@ py::tuple sweep(const std::string& study, const std::string& folder, const Overr
   return py::make_tuple(csv, json);
 }
 
-/// (fit.csv, fit.json, whether the goal is met, the scene's file, its overrides for the best point, this by name, its measures by name);
-/// no file if no point was found
+/// (fit.csv, fit.json, whether the goal is met, the scene's file, its overrides for the best point, this point by name, its measures by name);
+/// the file is empty if no point was found
 py::tuple fit(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string csv, json;
@@ -43,7 +43,7 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
     const FitEnd end = run_fit(plan, folder, settings);
     csv = fit_csv(plan, end), json = fit_json(plan, end);
     if (end.best) {
-      const Trying& t = end.tried[*end.best];
+      const FitCase& t = end.tried[*end.best];
       met = end.meets(plan), file = plan.source.file.string(), best = plan.source.common;
       for (auto& [name, value] : best_point(plan, end)) best.emplace_back(name, value);
       for (std::size_t j = 0; j < plan.variables.size(); ++j) point.emplace_back(variable_header(plan.variables[j]), variable_value(t, j));

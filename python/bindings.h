@@ -15,30 +15,30 @@
 #include "framework/bodies/body_store.h"
 #include "framework/scene/yaml/reader.h"
 
-/// The Python module over the C++ API: each file binds what one group of questions needs. What Python says to users, names and tables,
-/// stands in pintle/*.py.
+/// The Python module over the C++ API: each file binds one group of analyses. The user interface in Python, with names and tables,
+/// is in pintle/*.py.
 namespace pintle::python {
 
 namespace py = pybind11;
 
-/// A Python function in the place of a law of the scene.
+/// A Python function that replaces a law of the scene.
 struct FunctionLaw {
   std::string owner;               ///< a load, a state or an output
   std::vector<std::string> of;     ///< signals, and "t"
   std::shared_ptr<py::object> is;  ///< freed with the interpreter held
 };
 
-/// A scene as it was written, and as it was read.
+/// A scene: its text and what was read from it.
 struct SceneSource {
   std::string text, name;
   std::filesystem::path folder;
   Overrides set;
   std::vector<FunctionLaw> functions;
-  std::shared_ptr<BodyStore> bodies;  ///< shared with the scenes that are made from this one
+  std::shared_ptr<BodyStore> bodies;  ///< shared with the scenes derived from this one
   Scene scene;
 };
 
-/// A scene made ready for a question; what results are told by.
+/// A scene prepared for an analysis, which its results refer to.
 struct Prepared {
   Scene scene;
   Model model;
@@ -48,19 +48,19 @@ enum class Question { run, kinematics, statics, small_motion };
 /// @throws SceneError, AssemblyError
 std::shared_ptr<const Prepared> prepared(const SceneSource&, Question);
 
-/// What a run or a driven motion has found, or the motion of an inverse problem. Arrays in Python are its own memory.
+/// Result of a run, of kinematics, or the motion of inverse dynamics. Arrays in Python refer to its memory.
 struct RunResult {
   std::shared_ptr<const Prepared> of;
   std::shared_ptr<const Run> run;
   bool driven = false;  ///< by kinematics
 };
 
-/// Lets Ctrl-C and other signals through while C++ computes without the interpreter, some times a second.
+/// Handles Ctrl-C and other signals several times a second while C++ computes without the interpreter.
 class Watch {
  public:
   /// As a listener of a run. @returns false: a signal's handler has raised an exception
   bool operator()(double = 0);
-  /// Raises what the handler raised; with `result`, if there is one, as its attribute.
+  /// Raises the handler's exception, with `result` as its attribute if there is one.
   void raise(py::object result = py::none());
 
  private:
@@ -68,7 +68,7 @@ class Watch {
   std::optional<py::error_already_set> raised_;
 };
 
-/// Numbers of C++ as an array that owns none of them and keeps `owner` alive; not to be written to.
+/// A read-only array over numbers of C++, which it does not own; keeps `owner` alive.
 template <class T>
 py::array numbers(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
   py::array out(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
@@ -89,7 +89,7 @@ py::array vector(const Vector& v, py::handle owner) {
 /// (header, rows × columns)
 py::tuple table(const Table&, py::handle owner);
 
-/// Puts Python functions in the place of laws. @throws SceneError  there is nothing of that name that has a law
+/// Replaces laws by Python functions. @throws SceneError  nothing with that name has a law
 void put_functions(Scene&, const std::vector<FunctionLaw>&);
 
 void bind_errors(py::module_&);

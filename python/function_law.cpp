@@ -10,7 +10,7 @@ namespace pintle::python {
 
 namespace {
 
-/// What a Python function gives, one number or, of a force, one of two. Called with the interpreter held, from whichever thread runs.
+/// Value of a Python function: one number, or for a force one of its two components. Called with the interpreter held, from any thread.
 class Called {
  public:
   Called(const FunctionLaw& law, int component) : is_(law.is), owner_(law.owner), component_(component) {
@@ -29,19 +29,19 @@ class Called {
     try {
       if (component_ < 0) return given.cast<double>();
       if (py::isinstance<py::sequence>(given) && py::len(given) == 2) return py::object(given[py::int_(component_)]).cast<double>();
-    } catch (const py::cast_error&) {  // said below
+    } catch (const py::cast_error&) {  // reported below
     }
-    throw py::type_error("the function that replaces the law of \"" + owner_ + "\" gave " + py::repr(given).cast<std::string>() +
-                         "; it must give " + (component_ < 0 ? "a number" : "two numbers, the force along x and along y"));
+    throw py::type_error("the function that replaces the law of \"" + owner_ + "\" returned " + py::repr(given).cast<std::string>() +
+                         "; it must return " + (component_ < 0 ? "a number" : "two numbers, the force along x and along y"));
   }
 
   std::shared_ptr<py::object> is_;
   std::string owner_;
-  int component_;                 ///< −1: it gives one number
+  int component_;                 ///< −1: the function returns one number
   std::vector<bool> times_ = {};  ///< which arguments are the time
 };
 
-/// Central differences at the cube root of rounding; below `least` in size an argument is stepped as if it had that.
+/// Central differences with steps of the cube root of rounding, relative to the argument or, if that is smaller, to `least`.
 double step_of(double x) {
   constexpr double part = 6e-6, least = 1e-3;
   return part * std::max(std::abs(x), least);

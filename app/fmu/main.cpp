@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "app/failure.h"
 #include "app/fmu/export.h"
 #include "app/mistyped.h"
 #include "app/options.h"
@@ -80,19 +81,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return end_of(command, e, argc, argv);
   }
-  try {
+  return exit_code_of([&] {
     order.scene = scene, order.out = out;
     order.set = overrides(options);
     if (!order.out.empty() && order.out.extension() != ".fmu") throw SceneError("--out " + out + ": a unit is called NAME.fmu");
     return export_scene(order, quiet);
-  } catch (const SceneError& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return bad_scene;
-  } catch (const AssemblyError& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return no_assembly;
-  } catch (const std::exception& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return trouble;
-  }
+  });
 }

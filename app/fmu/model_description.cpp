@@ -53,12 +53,6 @@ class Markup {
   std::unique_ptr<xmlTextWriter, decltype(&xmlFreeTextWriter)> to_;
 };
 
-std::string in_digits(double x) {
-  std::string out;
-  append_number(out, x);
-  return out;
-}
-
 /// Exponents of the base units; none where one is not whole, as of m kg^0.5.
 Markup::Attributes base_units(const std::string& unit) {
   const Quantity one = read_quantity("1 " + unit);
@@ -108,7 +102,7 @@ Typed typed(const FmuVariable& v, std::size_t reference) {
   if (v.kind == FmuVariable::happened || v.kind == FmuVariable::contacts) out.type = "Int32";
   if (v.kind == FmuVariable::touching) out.type = "Boolean";
   if (!v.unit.empty()) out.attributes.emplace_back("unit", v.unit);
-  if (v.kind == FmuVariable::parameter || v.kind == FmuVariable::input) out.attributes.emplace_back("start", in_digits(v.start));
+  if (v.kind == FmuVariable::parameter || v.kind == FmuVariable::input) out.attributes.emplace_back("start", number_exactly(v.start));
   return out;
 }
 
@@ -144,9 +138,9 @@ std::string model_description(const FmuContents& contents, const std::string& id
   to.element("Category", {{"name", "logEvents"}, {"description", "times of events"}});
   to.close();
   to.element("DefaultExperiment", {{"startTime", "0"},
-                                   {"stopTime", in_digits(contents.until)},
-                                   {"tolerance", in_digits(contents.tolerance)},
-                                   {"stepSize", in_digits(contents.every)}});
+                                   {"stopTime", number_exactly(contents.until)},
+                                   {"tolerance", number_exactly(contents.tolerance)},
+                                   {"stepSize", number_exactly(contents.every)}});
   to.open("ModelVariables");
   for (std::size_t i = 0; i < contents.variables.size(); ++i) {
     const Typed v = typed(contents.variables[i], i);

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "app/failure.h"
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
@@ -21,7 +22,7 @@ int view(const std::string& scene, const std::vector<std::string>& set, int port
   options.set = set;
   ViewSession session(scene, overrides(options));
   ViewServer server(session, port);
-  heed_signals();
+  handle_signals();
   std::cout << "  " << server.address() << "\n  open it in a browser on this machine; Ctrl-C ends it" << std::endl;
   server.serve(asked_to_stop);
   return ok;
@@ -54,13 +55,5 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return end_of(command, e, argc, argv);
   }
-  try {
-    return view(scene, set, port);
-  } catch (const SceneError& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return bad_scene;
-  } catch (const std::exception& e) {
-    std::cerr << "pintle: " << e.what() << "\n";
-    return trouble;
-  }
+  return exit_code_of([&] { return view(scene, set, port); });
 }

@@ -57,7 +57,7 @@ Mesh plate_mesh(const Scene& scene, const SceneBody& body, const ScenePlate& pla
   return mesh;
 }
 
-void judge(const Mesh& mesh) {
+void validate_connected(const Mesh& mesh) {
   if (mesh.cell_count() == 0) throw std::invalid_argument("its mesh is empty: no cell in the plane; check the surfaces of the drawing");
   std::vector<int> piece;
   if (const int n = pieces(mesh, piece); n > 1) {
@@ -87,7 +87,7 @@ Mesh mesh_of(const Scene& scene, const SceneBody& body, std::vector<std::string>
     if (mesh.cell_count() > 0 && mesh.plane() == (beam_of(body) != nullptr))
       throw std::invalid_argument("its mesh is made of lines, not of plane cells; a beam is described by points, not by a file");
     if (mesh.plane()) orient(mesh);
-    judge(mesh);
+    validate_connected(mesh);
     return mesh;
   });
 }

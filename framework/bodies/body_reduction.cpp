@@ -45,7 +45,7 @@ FlexInertia invariants(const ElasticBody& e, const Reduction& r) {
 }
 
 /// Data shared by several checks of one body.
-struct Judged {
+struct ReducedBody {
   const ElasticBody& e;
   const Reduction& r;
   MatrixXd loads;  ///< loads_on
@@ -55,7 +55,7 @@ struct Judged {
 };
 
 /// Smallest ratio of reduced to full compliance uᵀf for unit loads at the ports in use.
-CoveredCompliance covered(const Judged& b) {
+CoveredCompliance covered(const ReducedBody& b) {
   const ElasticBody& e = b.e;
   const MatrixXd loads = b.loads.rightCols(3 * static_cast<Index>(e.model.ports.size()));
   const VectorXd full = loads.cwiseProduct(b.response.under(b.r.conditions, loads)).colwise().sum();
@@ -75,7 +75,7 @@ CoveredCompliance covered(const Judged& b) {
 }
 
 /// Shapes transformed to mean axes are φ − R(RᵀMR)⁻¹RᵀMφ; with R about the mass centre RᵀMφ is S and h.
-std::vector<FreeCompliance> when_free(const Judged& b) {
+std::vector<FreeCompliance> when_free(const ReducedBody& b) {
   const std::vector<Port>& ports = b.e.model.ports;
   std::vector<FreeCompliance> out(ports.size());
   const RigidInertia inertia = rigid_inertia(b.e.model, b.e.M);
@@ -109,7 +109,7 @@ std::optional<ReferenceConditions> hold_by(const ElasticBody& e, const std::vect
 }
 
 /// Static shapes represent loads at the interface exactly; the deformation due to inertia beyond and between them is left to the modes.
-CoveredInertia inertia_covered(const Judged& b) {
+CoveredInertia inertia_covered(const ReducedBody& b) {
   CoveredInertia out;
   const std::optional<ReferenceConditions> hold = hold_by(b.e, b.interface);
   if (b.e.scene->elastic->modes->method != SceneModes::Method::craig_bampton || !hold) return out;
@@ -133,7 +133,7 @@ CoveredInertia inertia_covered(const Judged& b) {
   return out;
 }
 
-std::vector<MatrixXd> by_load(const Judged& b) {
+std::vector<MatrixXd> by_load(const ReducedBody& b) {
   const Index count = std::min(stiffened_shapes, b.r.modes.omega.size());
   std::vector<Index> used{0, 1, 2, 3};
   for (const int port : b.interface)
@@ -159,11 +159,11 @@ Reduction reduction_of(const Scene& scene, const ElasticBody& e, std::optional<i
     r.inertia = invariants(e, r);
     if (said.stiffening != Stiffening::none) r.second = port_foreshortening(component_of(e), r.conditions, r.modes);
     const Component c = component_of(e);
-    const Judged judged{e, r, loads_on(e), c, StaticResponse(c), interface_of(scene, e)};
-    r.compliance = covered(judged);
-    r.when_free = when_free(judged);
-    r.inertia_covered = inertia_covered(judged);
-    r.by_load = by_load(judged);
+    const ReducedBody reduced{e, r, loads_on(e), c, StaticResponse(c), interface_of(scene, e)};
+    r.compliance = covered(reduced);
+    r.when_free = when_free(reduced);
+    r.inertia_covered = inertia_covered(reduced);
+    r.by_load = by_load(reduced);
   });
   return r;
 }

@@ -30,7 +30,7 @@ std::string described(const WorstCell& cell) {
   return s.str();
 }
 
-void judge(const MeshQuality& q, std::vector<std::string>& warnings) {
+void validate_quality(const MeshQuality& q, std::vector<std::string>& warnings) {
   if (!q.inverted.empty())
     throw std::invalid_argument("its mesh has " + std::to_string(q.inverted.size()) + " inverted cell(s), the worst " +
                                 described(q.inverted.front()) + "; refine there, use another element, or correct the mesh");
@@ -287,7 +287,7 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
   in_body(scene, body, [&] {
     if (e.mesh.plane()) {
       e.quality = quality(e.mesh);
-      judge(e.quality, e.warnings);
+      validate_quality(e.quality, e.warnings);
       validate_soundness(e.mesh, e.warnings);
       validate_locking(plate_of(body), e.mesh, e.warnings);
       e.thickness = plate_of(body).thickness;

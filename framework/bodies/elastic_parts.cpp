@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "framework/common/nearest.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 
 namespace pintle {
@@ -70,7 +71,7 @@ const SceneBody& elastic_of(const Scene& scene, const std::string& name) {
     throw SceneError(scene.file, {0, "bodies"}, "no body of elements is called \"" + name + "\"." + did_you_mean(name, names));
   if (name.empty() && names.size() > 1)
     throw SceneError(scene.file, {0, "bodies"},
-                     "several bodies are made of elements (" + listed(names, "and") + "); choose one with --body");
+                     "several bodies are made of elements (" + some_of(names, false) + "); choose one with --body");
   return *found;
 }
 

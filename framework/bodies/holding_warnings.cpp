@@ -39,7 +39,7 @@ std::string first_of(const std::vector<std::string>& names) {
 }  // namespace
 
 std::vector<std::string> holding_warnings(const Scene& scene, const std::vector<std::optional<MechanismBody>>& bodies) {
-  std::vector<std::string> clamped, untied;
+  std::vector<std::string> clamped, elsewhere;
   for (const auto& b : bodies) {
     if (!b || !b->body.flex) continue;
     const SceneElastic& said = *b->elastic.scene->elastic;
@@ -50,16 +50,17 @@ std::vector<std::string> holding_warnings(const Scene& scene, const std::vector<
         if (h.clamps && !(tangent && h.point == tied_to(*b))) clamped.push_back("\"" + b->body.name + "." + h.point + "\"");
     if (said.stiffening != Stiffening::rotation || holds.empty()) continue;
     if (std::none_of(holds.begin(), holds.end(), [&](const Hold& h) { return h.point == tied_to(*b); }))
-      untied.push_back("\"" + b->body.name + "\"");
+      elsewhere.push_back("\"" + b->body.name + "\"");
   }
   std::vector<std::string> out;
   if (!clamped.empty())
     out.push_back(first_of(clamped) +
                   " is clamped, but its shapes are normal modes with other supports; a few of them bend too little there and give wrong "
                   "stress: use craig-bampton");
-  if (!untied.empty())
-    out.push_back("stiffening: rotation computes the pull of inertia as if the body were held at the tie of its frame, but joints hold " +
-                  first_of(untied) + " elsewhere; use axial, or tie the frame to the joint that holds the body");
+  if (!elsewhere.empty())
+    out.push_back(
+        "stiffening: rotation computes the pull of inertia as if the body were held by its reference conditions, but joints hold " +
+        first_of(elsewhere) + " elsewhere; use axial, or choose the frame at the joint that holds the body");
   return out;
 }
 

@@ -28,7 +28,8 @@ void validate_frame(const MechanismBody& b) {
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(left).eigenvalues()[0];
   if (!(least > 1e-10))
     throw std::invalid_argument(
-        "its shapes leave the frame no inertia: the frame is tied to degrees of freedom without mass; use the consistent mass matrix, "
+        "its shapes leave the frame no inertia: its reference conditions hold degrees of freedom without mass; use the consistent mass "
+        "matrix, "
         "rotary inertia, another frame or fewer shapes");
 }
 

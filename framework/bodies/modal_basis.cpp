@@ -42,7 +42,7 @@ auto in_modes(const Scene& scene, const SceneModes& modes, Work work) {
   }
 }
 
-void judge(const Scene& scene, const ElasticBody& e, const ReferenceConditions& conditions) {
+void validate(const Scene& scene, const ElasticBody& e, const ReferenceConditions& conditions) {
   const SceneModes& modes = *e.scene->elastic->modes;
   const Port& a = e.model.ports[static_cast<std::size_t>(conditions.a)];
   if (conditions.kind == ReferenceConditions::tangent && a.freedom[2] < 0)
@@ -138,7 +138,7 @@ ReferenceConditions reference_conditions_of(const Scene& scene, const ElasticBod
   const ReferenceConditions conditions = modes.frame == Frame::tangent
                                              ? ReferenceConditions{ReferenceConditions::tangent, first}
                                              : ReferenceConditions{ReferenceConditions::chord, first, named_port(scene, e, b, modes.place)};
-  judge(scene, e, conditions);
+  validate(scene, e, conditions);
   return conditions;
 }
 

@@ -82,7 +82,7 @@ struct Whole {
   std::vector<double> cuts;    ///< from 0 to the length, one more than pieces
 };
 
-void judge(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
+void validate(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, body.place, message); };
   if (!body.elastic->modes) wrong("its beam is cut into pieces but has no modes; add modes");
   if (beam.bar)
@@ -97,7 +97,7 @@ void judge(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
 }
 
 Whole whole_of(const Scene& scene, const SceneBody& body, const SceneBeam& beam) {
-  judge(scene, body, beam);
+  validate(scene, body, beam);
   Whole whole{scene, body, beam, axis_of(scene, body, beam), 0, {}, {}};
   const double step = whole.axis.length() / beam.pieces;
   whole.tolerance = rounding_of_step * step;
@@ -195,7 +195,7 @@ bool has_point(const SceneBody& body, const std::string& name) {
 }
 
 /// Keeps the frame's reference conditions if the piece has their points, otherwise uses the ends of the piece.
-void tie(SceneModes& modes, const SceneBody& piece) {
+void set_reference_conditions(SceneModes& modes, const SceneBody& piece) {
   using Frame = SceneModes::Frame;
   if (modes.frame == Frame::mean_axes) return;
   const bool chord = modes.frame == Frame::chord;
@@ -232,7 +232,7 @@ SceneBody piece_of(const Whole& whole, std::size_t k) {
   share_sections(whole, k, beam);
   std::erase_if(elastic.lumps, [&](const SceneLump& l) { return !has_point(piece, l.at); });
   std::erase_if(elastic.supports, [&](const SceneSupport& s) { return !has_point(piece, s.at); });
-  tie(*elastic.modes, piece);
+  set_reference_conditions(*elastic.modes, piece);
   piece.profiles = profiles_on(whole.body, piece);
   return piece;
 }
@@ -274,15 +274,15 @@ void validate_names(const Scene& scene, const std::map<std::string, Pieces>& cut
   for (const SceneJoint& j : scene.joints) taken.try_emplace(j.name, j.place);
   for (const SceneDriver& d : scene.drivers) taken.try_emplace(d.name, d.place);
   for (const SceneLoad& l : scene.loads) taken.try_emplace(l.name, l.place);
-  const auto judge = [&](const std::string& name, const std::string& what, const std::string& beam) {
+  const auto validate_name = [&](const std::string& name, const std::string& what, const std::string& beam) {
     if (const auto found = taken.find(name); found != taken.end())
       throw SceneError(
           scene.file, found->second,
           "\"" + name + "\" is the name of a " + what + " of the beam \"" + beam + "\", which is cut into pieces; choose another name");
   };
   for (const auto& [beam, pieces] : cuts) {
-    for (const SceneBody& b : pieces.bodies) judge(b.name, "piece", beam);
-    for (const SceneJoint& j : pieces.welds) judge(j.name, "weld", beam);
+    for (const SceneBody& b : pieces.bodies) validate_name(b.name, "piece", beam);
+    for (const SceneJoint& j : pieces.welds) validate_name(j.name, "weld", beam);
   }
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include <Eigen/Geometry>
 
 #include "framework/common/index.h"
 #include "framework/common/nearest.h"
+#include "framework/common/text.h"
 #include "framework/dynamics/model/signal_values.h"
 #include "framework/scene/error.h"
 
@@ -28,13 +28,6 @@ const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, con
   return scene.run.tolerance > fine || by_contacts || dearer ? low : high;
 }
 constexpr double rate_reached = 1.0, decay_reached = 3.3;  // stability limits of dopri5 along the axes
-
-std::string short_number(double x) {
-  std::ostringstream s;
-  s.precision(2);
-  s << x;
-  return s.str();
-}
 
 /// Acceleration by a unit force, in the most favourable direction, or by a unit couple on a marker. [1/kg], [1/(kg m²)]
 struct Mobility {
@@ -287,18 +280,18 @@ bool has_rigid_contacts(const System& system) {
   return std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_rigid(c); });
 }
 
-std::string damped_text(const RateSpectrum& s) { return s.most_damped.what + " (" + short_number(s.most_damped.decay) + " 1/s)"; }
+std::string damped_text(const RateSpectrum& s) { return s.most_damped.what + " (" + number_text(s.most_damped.decay, 2) + " 1/s)"; }
 
 std::string reason_of(const RateSpectrum& s, const Demand& d, bool rigid) {
-  std::string why = "Dormand and Prince's pair needs about " + short_number(std::max(d.stability, d.accuracy)) + " steps a second";
+  std::string why = "Dormand and Prince's pair needs about " + number_text(std::max(d.stability, d.accuracy), 2) + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
     why +=
-        ", a limit of stability set by " + (by_decay ? damped_text(s) : s.fastest.what + " (" + short_number(s.fastest.rate) + " rad/s)");
+        ", a limit of stability set by " + (by_decay ? damped_text(s) : s.fastest.what + " (" + number_text(s.fastest.rate, 2) + " rad/s)");
   } else {
     why += " for its accuracy";
   }
-  return why + (rigid ? "; each impact of rigid bodies is an event" : ", and generalised-alpha about " + short_number(d.implicit));
+  return why + (rigid ? "; each impact of rigid bodies is an event" : ", and generalised-alpha about " + number_text(d.implicit, 2));
 }
 
 void choose(const Scene& scene, const System& system, const RateSpectrum& s, Scheme& scheme) {
@@ -307,7 +300,8 @@ void choose(const Scene& scene, const System& system, const RateSpectrum& s, Sch
   const bool is_implicit =
       !rigid && !states_alone && std::max(d.stability, d.accuracy) > dearer * d.implicit && scene.run.constraints != "partitioning";
   if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
-  scheme.reason = name(scheme) + ", chosen because " + (states_alone ? "only steps tell how fast own states move" : reason_of(s, d, rigid));
+  scheme.reason = name(scheme) + ", chosen because " +
+                  (states_alone ? "only steps show how fast the states of the scene change" : reason_of(s, d, rigid));
   if (is_implicit) return;
   if (scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   if (!rigid && !s.parts.empty() && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;

@@ -21,6 +21,8 @@ std::string number_text(double x, int digits) {
   return s.str();
 }
 
+std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
 std::string quoted(const std::string& s) { return "\"" + s + "\""; }
 
 void append_number(std::string& out, double x) {
@@ -28,6 +30,12 @@ void append_number(std::string& out, double x) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, x).ptr;
   out.append(text, end);
+}
+
+std::string number_exactly(double x) {
+  std::string out;
+  append_number(out, x);
+  return out;
 }
 
 }  // namespace pintle

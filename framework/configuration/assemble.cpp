@@ -9,6 +9,8 @@
 #include <Eigen/SparseCore>
 
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
+#include "framework/common/worse.h"
 #include "framework/configuration/branching.h"
 #include "framework/configuration/closure.h"
 #include "framework/configuration/drawn_pose.h"
@@ -18,6 +20,7 @@
 #include "framework/configuration/locked_couplings.h"
 #include "framework/configuration/named_place.h"
 #include "framework/configuration/overlap.h"
+#include "framework/configuration/placed.h"
 #include "framework/configuration/row_space.h"
 #include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/model/marker_motion.h"
@@ -83,9 +86,8 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   Index worst = 0;
   left.cwiseAbs().maxCoeff(&worst);
   std::string message = what + ": " + closure.amount(worst, left[worst]) + per + " remains";
-  std::string others;
-  for (const std::string& name : closure.opponents(worst, left)) others += (others.empty() ? "\"" : ", \"") + name + "\"";
-  if (!others.empty()) message += "; it contradicts " + others;
+  if (const std::vector<std::string> others = closure.opponents(worst, left); !others.empty())
+    message += "; it contradicts " + some_of(others);
   throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
@@ -100,30 +102,39 @@ double constraints_met(const System& system, const VectorXd& y) {
   return std::max(met, std::min(8 * angle_rounding(system, y), still_good));
 }
 
-// Levenberg–Marquardt on C = 0, starting from the rough pose.
-int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
-  constexpr double closed = 1e-12;
-  closure.pin(r.places);
+/// A solution of C = 0, or the best that was found.
+struct Closed {
   Sparse J;
+  VectorXd C;
+  int iterations = 0;
+  bool far = false;  ///< the first step was much longer than one may be
+};
+
+// Levenberg–Marquardt on C = 0, starting from y.
+Closed close_from(Closure& closure, const System& system, const VectorXd& W, VectorXd& y, bool however_far = true) {
+  constexpr double closed = 1e-12, most = 0.5, far = 20 * most;
+  Closed out;
   double mu = 1e-9;
-  VectorXd C = closure.violation(r.y, &J);
-  int i = 0;
-  for (; i < 300 && C.size() > 0 && C.lpNorm<Eigen::Infinity>() > closed; ++i) {
-    VectorXd step = least_step(J, r.W_pose, -C, mu, 1);
-    const double reach = std::max((step.array() / r.W_pose.array().max(1e-300).sqrt()).abs().maxCoeff(), 1e-300);
-    if (reach > 0.5) step *= 0.5 / reach;
-    VectorXd trial = r.y;
+  auto& [J, C, i, is_far] = out;
+  C = closure.violation(y, &J);
+  const auto remains = [&] { return largest(out.C) > std::max(closed, 2 * angle_rounding(system, y)); };
+  for (; i < 300 && remains(); ++i) {
+    VectorXd step = least_step(J, W, -C, mu, 1);
+    const double reach = std::max((step.array() / W.array().max(1e-300).sqrt()).abs().maxCoeff(), 1e-300);
+    if (is_far = i == 0 && reach > far; is_far && !however_far) break;
+    if (reach > most) step *= most / reach;
+    VectorXd trial = y;
     trial.head(system.n()) += step;
     const VectorXd C_trial = closure.violation(trial);
     if (C_trial.norm() < C.norm()) {
       // Near a singular configuration Newton's steps are half of the remaining distance, so residuals fall to a quarter.
-      const VectorXd further = r.y.head(system.n()) + 2 * step;
-      r.y = trial;
-      if (const double left = C_trial.norm() / C.norm(); left > 0.2 && left < 0.3 && reach <= 0.5) {
+      const VectorXd further = y.head(system.n()) + 2 * step;
+      y = trial;
+      if (const double left = C_trial.norm() / C.norm(); left > 0.2 && left < 0.3 && reach <= most) {
         trial.head(system.n()) = further;
-        if (closure.violation(trial).norm() < 0.1 * C_trial.norm()) r.y = trial;
+        if (closure.violation(trial).norm() < 0.1 * C_trial.norm()) y = trial;
       }
-      C = closure.violation(r.y, &J);
+      C = closure.violation(y, &J);
       mu = std::max(mu / 10, 1e-15);
     } else if (mu < 1e3) {
       mu *= 10;
@@ -131,16 +142,52 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
       break;
     }
   }
-  const double left = C.size() > 0 ? C.lpNorm<Eigen::Infinity>() : 0;
+  return out;
+}
+
+// From the drawn pose; where that fails, or where the bodies have far to go, from the places that a tree of joints gives them.
+Closed close_anyhow(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+  constexpr double far = 10;    // lengths of the mechanism
+  constexpr double bent = 0.1;  // [rad]
+  const VectorXd drawn = r.y;
+  const auto is_closed = [&](const Closed& c) { return largest(c.C) <= constraints_met(system, r.y); };
+  const auto from_placed = [&](double bend) {
+    r.y = placed(scene, system, closure, drawn, r.W_pose, bend);
+    Closed out = close_from(closure, system, r.W_pose, r.y);
+    ++out.iterations;  // the placing
+    return out;
+  };
+  Closed first = close_from(closure, system, r.W_pose, r.y, false);
+  std::vector<double> bends{0, bent};
+  if (first.far) {
+    if (Closed at_once = from_placed(0); is_closed(at_once) && largest((r.y - drawn).head(system.n_rigid())) > far * system.length)
+      return at_once;
+    else if (!is_closed(at_once))
+      bends = {bent};
+    r.y = drawn;
+    first = close_from(closure, system, r.W_pose, r.y);
+  }
+  if (is_closed(first)) return first;
+  const VectorXd compromise = r.y;
+  for (const double bend : bends)
+    if (Closed later = from_placed(bend); is_closed(later)) return later;
+  r.y = compromise;
+  return first;
+}
+
+int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
+  closure.pin(r.places);
+  Closed now = close_anyhow(scene, closure, system, r);
+  const double left = largest(now.C);
   if (!(left <= constraints_met(system, r.y))) {
     closure.violation(r.y);
     const bool pinned = !scene.start_bodies.empty();
     cannot(
-        scene, pinned ? "cannot close with the values given in `start`" : "cannot close", closure, C, "",
+        scene, pinned ? "cannot close with the values given in `start`" : "cannot close", closure, now.C, "",
         left < nearly_right ? must_fit : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the intended ones");
   }
-  close_in(closure, system, r.W_pose, r.y, C, J);
-  return i;
+  close_in(closure, system, r.W_pose, r.y, now.C, now.J);
+  return now.iterations;
 }
 
 int match_speeds(const Scene& scene, Closure& closure, const System& system, Rough& r) {
@@ -169,9 +216,10 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
                                                                    "between bodies that other joints couple with a different ratio");
   const std::vector<Dependence> singular = singular_dependences(system, 0, r.y);
   if (!singular.empty() && !choose_branch(closure, system, J, singular, r.W_speed, r.y))
-    throw AssemblyError(scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
-                        "the start is a singular pose, where the motion can branch, and no branch has these speeds; start from another "
-                        "pose, or give other speeds in `start`");
+    throw AssemblyError(
+        scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
+        "the start is a singular configuration, where the motion can branch, and no branch has these speeds; start from another "
+        "pose, or give other speeds in `start`");
   return 1;
 }
 
@@ -209,19 +257,20 @@ const std::string& last_driver(const System& system, const std::vector<Redundanc
 std::vector<std::string> warnings_of(const Model& model, const Assembly& assembly) {
   const System& system = model.system;
   std::vector<std::string> out = assembly.doubts;
-  std::string singular;
+  std::vector<std::string> singular;
   bool any = false;
   for (const Redundancy& r : assembly.redundant) {
     if (const std::string twice = driven_twice(system, r); r.permanent && !twice.empty()) out.push_back(twice);
     any = any || r.permanent;
-    if (!r.permanent) singular += (singular.empty() ? "" : ", ") + row_text(system, r.joint, r.row);
+    if (!r.permanent) singular.push_back(row_text(system, r.joint, r.row));
   }
   if (any)
     out.push_back(
         "redundant joints: the motion does not determine how they share these forces; the program chooses the solution of least norm: " +
         rows_text(system, assembly.shared));
   if (!singular.empty())
-    out.push_back("the start is a singular pose, where the motion can branch: in this pose only, other joints imply " + singular +
+    out.push_back("the start is a singular configuration, where the motion can branch: in this pose only, other joints imply " +
+                  some_of(singular, false) +
                   "; speeds in `start` choose the branch; without them it is the one nearest to the least kinetic energy");
   for (std::string& locked : locked_couplings(system, assembly.start.t, assembly.start.y)) out.push_back(std::move(locked));
   return out;

@@ -105,27 +105,37 @@ class Closure {
     return s.str();
   }
   int joint(Index row) const {
-    for (std::size_t k = 0; k < system_.joints.size(); ++k)
-      if (row < system_.row_begin[k + 1]) return static_cast<int>(k);
-    return -1;
+    if (row >= system_.n_rows()) return -1;
+    const auto next = std::upper_bound(system_.row_begin.begin(), system_.row_begin.end(), static_cast<int>(row));
+    return static_cast<int>(next - system_.row_begin.begin()) - 1;
   }
-  /// Joints with rows that are exactly or nearly dependent together with this row.
+  /// 1 for the rows that compare angles, 0 for those that compare places.
+  VectorXd angle_rows() const {
+    VectorXd out = VectorXd::Zero(rows());
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      for (int row = system_.row_begin[k]; row < system_.row_begin[k + 1]; ++row)
+        out[row] = is_angle_row(system_.joints[k], row - system_.row_begin[k]) ? 1 : 0;
+    return out;
+  }
+  /// Joints with rows that are exactly or nearly dependent together with this row, drivers first.
   std::vector<std::string> opponents(Index row, const VectorXd& left) const {
-    std::vector<std::string> names;
+    std::vector<std::string> drivers, names;
+    const auto add = [&](Index other) {
+      const int k = joint(other);
+      std::vector<std::string>& to = k >= 0 && is_driver(system_.joints[at(k)]) ? drivers : names;
+      if (const std::string name = owner(other); name != owner(row) && (to.empty() || to.back() != name)) to.push_back(name);
+    };
     bool found = false;
     for (const Dependence& d : row_space(system_, eq_, 1e-4).dependences) {
       if (std::none_of(d.N.begin(), d.N.end(), [&](const auto& entry) { return entry.first == row; })) continue;
-      for (const auto& entry : d.N) {
-        const std::string name = owner(entry.first);
-        if (name != owner(row) && (names.empty() || names.back() != name)) names.push_back(name);
-      }
+      for (const auto& entry : d.N) add(entry.first);
       found = true;
       break;
     }
     for (Index other = 0; other < left.size() && !found; ++other)  // the best compromise spreads the residual over all conflicting rows
-      if (std::abs(left[other]) > 0.1 * std::abs(left[row]) && owner(other) != owner(row)) names.push_back(owner(other));
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
+      if (std::abs(left[other]) > 0.1 * std::abs(left[row])) add(other);
+    drivers.insert(drivers.end(), names.begin(), names.end());
+    return drivers;
   }
 
  private:

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "framework/common/index.h"
-#include "framework/common/nearest.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/equations.h"
 
@@ -66,7 +66,7 @@ std::string driven_twice(const System& system, const Redundancy& r) {
     if (is_driver(system.joints[at(k)])) drivers.push_back(quoted(system.joint_names[at(k)]));
   if (is_driver(system.joints[at(r.joint)])) drivers.push_back(quoted(system.joint_names[at(r.joint)]));
   if (drivers.size() < 2) return "";
-  return "the drivers " + listed(drivers, "and") +
+  return "the drivers " + some_of(drivers, false) +
          " drive the same degree of freedom, and the motion does not determine how they share the force; remove " +
          (drivers.size() == 2 ? "one" : "all but one") + " of them";
 }

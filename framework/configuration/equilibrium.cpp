@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/configuration/own_rest.h"
 #include "framework/configuration/unsound_laws.h"
@@ -141,12 +142,6 @@ bool lead(const System& system, double to, State& state, double& reached) {
   return true;
 }
 
-std::string names(const std::vector<std::string>& all) {
-  std::string out;
-  for (const std::string& s : all) out += (out.empty() ? "\"" : ", \"") + s + "\"";
-  return out;
-}
-
 /// Bodies that still accelerate, in decreasing order.
 std::vector<std::string> restless(const System& system, const VectorXd& a) {
   std::vector<std::pair<double, std::string>> found;
@@ -259,7 +254,7 @@ bool rests_together(const Scene& scene, const Model& model, const RestingStates&
   out.stability.why_not = "its stability also depends on the scene's own states: use pintle linearize --equilibrium";
   if (!joint.undetermined.empty())
     out.warnings.push_back(
-        "of the states " + names(joint.undetermined) +
+        "of the states " + some_of(joint.undetermined) +
         " only some combinations are determined at equilibrium; of the possible values, those nearest to their starts were taken");
   if (!out.found)
     out.reason = !joint.reason.empty()
@@ -286,8 +281,9 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
     std::vector<std::string> drivers;
     for (std::size_t k = 0; k < system.joints.size(); ++k)
       if (is_driver(system.joints[k])) drivers.push_back(system.joint_names[k]);
-    out.reason = "the mechanism cannot be moved beyond t = " + number_text(reached) + " s: the law of " + names(drivers) +
-                 " prescribes a position that the links cannot reach there, or passes a singular pose; name an earlier time with --at";
+    out.reason =
+        "the mechanism cannot be moved beyond t = " + number_text(reached) + " s: the law of " + some_of(drivers) +
+        " prescribes a position that the links cannot reach there, or passes a singular configuration; name an earlier time with --at";
     return out;
   }
   const RestingStates states = resting_states(system);
@@ -315,15 +311,16 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   const bool was_found = out.found;
   out.found = out.found && out.residual <= told;
   if (was_found && !out.found)
-    out.reason = "an equilibrium was found next to a singular pose, where joint forces grow without bound and cannot be determined: " +
-                 number_text(out.residual) + " of the greatest is unbalanced; start from another pose, or remove a driver or a joint";
+    out.reason =
+        "an equilibrium was found next to a singular configuration, where joint forces grow without bound and cannot be determined: " +
+        number_text(out.residual) + " of the greatest is unbalanced; start from another pose, or remove a driver or a joint";
   else if (!out.found && way.runs_away())
     out.reason =
-        "nothing stops " + names(restless(rest.held, rest.eq.a)) +
+        "nothing stops " + some_of(restless(rest.held, rest.eq.a)) +
         " from moving without limit under gravity and loads; join or support what falls, or balance the torque that keeps turning it";
   else if (!out.found)
     out.reason = "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
-                 " of the greatest force is still unbalanced, most of it at " + names(restless(rest.held, rest.eq.a)) +
+                 " of the greatest force is still unbalanced, most of it at " + some_of(restless(rest.held, rest.eq.a)) +
                  "; start nearer to the equilibrium (`start`, `pose`), or check the stiffnesses";
   finish(scene, model, rest, states, last, out);
   return out;

@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/equations.h"
 
@@ -72,10 +73,9 @@ Index shared_bodies(const std::set<Index>& some, const std::set<Index>& all) {
 }
 
 std::string train_text(const System& system, const std::vector<int>& train) {
-  std::string names;
-  for (std::size_t k = 0; k < train.size(); ++k)
-    names += (k == 0 ? "" : k + 1 == train.size() ? " and " : ", ") + quoted(system.joint_names[at(train[k])]);
-  return "the couplings " + names +
+  std::vector<std::string> names;
+  for (const int k : train) names.push_back(system.joint_names[at(k)]);
+  return "the couplings " + some_of(names) +
          " hold each other still: their ratios contradict each other, so that nothing turns between them; correct one, or leave it out";
 }
 

@@ -5,6 +5,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/model/signal_values.h"
@@ -37,9 +38,9 @@ bool sizes_a_force(const System& system, int state) {
 }
 
 std::string list_of_states(const System& system, const std::vector<int>& which) {
-  std::string out;
-  for (const int i : which) out += (out.empty() ? "" : ", ") + quoted(system.states[at(i)].name);
-  return out;
+  std::vector<std::string> names;
+  for (const int i : which) names.push_back(system.states[at(i)].name);
+  return some_of(names);
 }
 
 std::string with_rate_unit(double rate, const OwnState& state) {
@@ -75,7 +76,7 @@ class TogetherAtRest {
         slope(n + i, n + j) = by.g_x(x, system_.own_x + sought_[at(j)]) * system_.states[at(sought_[at(j)])].scale;
       left[n + i] = law_at(system_, system_.laws[at(system_.states[at(which)].rate)], state.t, state.y);
     }
-    weigh(n, m);
+    set_weights(n, m);
   }
 
   /// Applies a step of the scaled unknowns. @returns false if the joints cannot be closed there
@@ -98,7 +99,7 @@ class TogetherAtRest {
 
  private:
   // Forces are scaled by the largest acting force at the start, rates by their sensitivity to the unknowns there.
-  void weigh(Index n, Index m) {
+  void set_weights(Index n, Index m) {
     if (weight_.size() == 0) {
       weight_ = VectorXd::Ones(m);
       for (Index i = 0; i < m; ++i)

@@ -7,6 +7,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/configuration/least_step.h"
 
@@ -110,26 +111,19 @@ std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector
 }
 
 /// The dependences of a configuration: those that also hold near it, and those that hold only in it.
-struct Judged {
+struct Permanence {
   std::vector<Dependence> permanent, singular;
   std::vector<std::vector<Dependence>> near;  ///< all dependences in configurations nearby
 };
 
-Judged judged(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& here) {
-  Judged out;
+Permanence permanence(const System& system, double t, const VectorXd& y, const std::vector<Dependence>& here) {
+  Permanence out;
   for (int attempt = 0; attempt <= along_speeds && out.near.size() < 2 && !here.empty(); ++attempt)
     if (const auto there = moved(system, t, y, attempt)) out.near.push_back(row_space_at(system, t, *there).dependences);
   const auto fewest = std::min_element(out.near.begin(), out.near.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   std::vector<bool> alone(here.size(), false);
   if (fewest != out.near.end()) alone = left_out(here, *fewest, system.n_rows());
   for (std::size_t k = 0; k < here.size(); ++k) (alone[k] ? out.singular : out.permanent).push_back(here[k]);
-  return out;
-}
-
-/// "a", "b" and "c"
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + quoted(names[i]);
   return out;
 }
 
@@ -223,7 +217,7 @@ std::string misfit(const System& system, double t, const VectorXd& y, const std:
     const int k = joint_of(system, worst);
     std::ostringstream s;
     s.precision(3);
-    s << "the redundant joints " << listed(names_in(system, d, false))
+    s << "the redundant joints " << some_of(names_in(system, d, false))
       << " do not agree with each other: " << quoted(system.joint_names[at(k)]) << " stays open by " << std::abs(eq.C[worst])
       << (is_angle_row(system.joints[at(k)], worst - system.row_begin[at(k)]) ? " rad" : " m")
       << ", but at most 1e-11 of the mechanism's size is allowed; write lengths, points and angles with more digits, or remove a joint";
@@ -239,7 +233,7 @@ RowReport validate_rows(const System& system, double t, const VectorXd& y) {
   const RowSpace space = row_space_at(system, t, y);
   out.rank = space.rank;
   out.shared.assign(at(system.n_rows()), false);
-  const Judged all = judged(system, t, y, space.dependences);
+  const Permanence all = permanence(system, t, y, space.dependences);
   const auto share = [&](const Dependence& d) {
     for (const auto& [row, weight] : d.N) out.shared[at(row)] = true;
   };
@@ -259,7 +253,7 @@ RowReport validate_rows(const System& system, double t, const VectorXd& y) {
 }
 
 std::vector<Dependence> singular_dependences(const System& system, double t, const VectorXd& y) {
-  return judged(system, t, y, row_space_at(system, t, y).dependences).singular;
+  return permanence(system, t, y, row_space_at(system, t, y).dependences).singular;
 }
 
 std::string row_text(const System& system, int joint, int row) {
@@ -284,13 +278,13 @@ std::string rows_text(const System& system, const std::vector<bool>& marked, boo
 std::string contradiction(const System& system, double t, const VectorXd& y, double until) {
   const std::vector<Dependence> here = row_space_at(system, t, y).dependences;
   if (std::none_of(here.begin(), here.end(), [&](const Dependence& d) { return !names_in(system, d, true).empty(); })) return "";
-  const Judged all = judged(system, t, y, here);
+  const Permanence all = permanence(system, t, y, here);
   for (const Dependence& d : all.permanent) {
     const std::vector<std::string> names = names_in(system, d, true);
     if (names.empty()) continue;
     const std::string who = names.size() > 1
-                                ? "the drivers " + listed(names) + " contradict each other"
-                                : "the driver " + listed(names) + " moves what " + listed(names_in(system, d, false)) + " hold";
+                                ? "the drivers " + some_of(names) + " contradict each other"
+                                : "the driver " + some_of(names) + " moves what " + some_of(names_in(system, d, false)) + " hold";
     if (contradiction_of_accelerations(system, t, y, d) > 1e-5)
       return who + ": at t = " + number_text(t) + " s they prescribe different accelerations for one degree of freedom";
     const std::vector<Driven> drivers = driven_by(system, d);
@@ -310,7 +304,7 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
   const RowSpace space = row_space_at(system, t, y);
   const std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
   if (!conflict.empty()) return conflict;
-  const std::vector<Dependence> permanent = judged(system, t, y, space.dependences).permanent;
+  const std::vector<Dependence> permanent = permanence(system, t, y, space.dependences).permanent;
   if (const std::string open = misfit(system, t, y, permanent); !open.empty()) return open;
   const std::vector<Dependence> nearly = row_space_at(system, t, y, close).dependences;
   std::vector<Dependence> undriven = nearly;
@@ -321,16 +315,16 @@ std::string explain_pose(const System& system, double t, const VectorXd& y) {
     if (!alone[k]) continue;
     const Dependence& d = nearly[k];
     const std::vector<std::string> drivers = names_in(system, d, true);
-    const std::string others = listed(names_in(system, d, false));
-    if (drivers.empty()) return "a singular pose: the constraint equations of " + others + " have become linearly dependent there";
+    const std::string others = some_of(names_in(system, d, false));
+    if (drivers.empty()) return "a singular configuration: the constraint equations of " + others + " have become linearly dependent there";
     const auto driver = std::find(system.joint_names.begin(), system.joint_names.end(), drivers.front()) - system.joint_names.begin();
     const Joint& joint = system.joints[static_cast<std::size_t>(driver)];
-    return "a dead centre: the driver " + listed(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +
+    return "a dead centre: the driver " + some_of(drivers) + " cannot move past " + number_text((*driver_law(joint))(t).value) +
            (is_angle_row(joint, 0) ? " rad" : " m") + (others.empty() ? "" : ", because " + others + " hold it there");
   }
   for (const Dependence& d : permanent)
     if (const auto drivers = names_in(system, d, true); drivers.size() > 1)
-      return "the drivers " + listed(drivers) + " act on the same degree of freedom and contradict each other";
+      return "the drivers " + some_of(drivers) + " act on the same degree of freedom and contradict each other";
   return "";
 }
 

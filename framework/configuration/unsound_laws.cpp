@@ -63,12 +63,12 @@ class LawsAt {
   LawsAt(const Scene& scene, const Model& model, const State& start, const State& now)
       : scene_(scene), system_(model.system), start_(start), now_(now) {
     each_law(scene, model,
-             [this](const std::string& name, const Place& place, const Law& from, int law) { judge(name, place, from, law); });
+             [this](const std::string& name, const Place& place, const Law& from, int law) { check(name, place, from, law); });
   }
   std::string found;
 
  private:
-  void judge(const std::string& name, const Place& place, const Law& from, int law) {
+  void check(const std::string& name, const Place& place, const Law& from, int law) {
     constexpr double steep = 1e6;
     if (!found.empty()) return;
     const SignalLaw& of = system_.laws[at(law)];

@@ -61,22 +61,22 @@ double ErrorNorm::of(const Step& step, bool follows_impacts) const {
   double worst = 0;
   for (Index b = 0; b < static_cast<Index>(reach_.size()); ++b) {
     const double reach = reach_[at(static_cast<int>(b))];
-    const auto judge = [&](Index i, double scale) {
+    const auto compare = [&](Index i, double scale) {
       const double rounding = 1e-15 * std::abs(y[i]);
       worst = worse(worst, std::abs(step.error[i]) / (tolerance_ * scale + rounding));
     };
-    judge(3 * b, length);
-    judge(3 * b + 1, length);
-    judge(3 * b + 2, length / reach);
-    judge(n + 3 * b, speed);
-    judge(n + 3 * b + 1, speed);
-    judge(n + 3 * b + 2, speed / reach);
+    compare(3 * b, length);
+    compare(3 * b + 1, length);
+    compare(3 * b + 2, length / reach);
+    compare(n + 3 * b, speed);
+    compare(n + 3 * b + 1, speed);
+    compare(n + 3 * b + 2, speed / reach);
     const double per_metre = std::sqrt(system_.bodies[at(static_cast<int>(b))].m);  // shapes scale as 1/√m
     const Index begin = system_.eta_begin[at(static_cast<int>(b))], end = system_.eta_begin[at(static_cast<int>(b)) + 1];
     for (Index i = begin; i < end; ++i) {
       const double as_fine = system_.bodies[at(static_cast<int>(b))].flex->omega[i - begin] * length;
-      judge(i, length * per_metre);
-      judge(n + i, std::max(speed, std::min(as_fine, fastest)) * per_metre);
+      compare(i, length * per_metre);
+      compare(n + i, std::max(speed, std::min(as_fine, fastest)) * per_metre);
     }
   }
   for (Index i = 0; i < system_.n_x(); ++i) {

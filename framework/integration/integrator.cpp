@@ -68,7 +68,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.from = step_.to;
   dense_ = step_.to.state;
   if (!stepper_->project(step_.to, eq_)) {
-    stop("the start is a singular pose or does not satisfy the constraints");
+    stop("the start is a singular configuration or does not satisfy the constraints");
     return;
   }
   events_.start(step_);
@@ -135,7 +135,7 @@ bool Integrator::pass_law_change() {
   if (!change->jumps) return true;
   control_.wish_for(0);
   control_.forget_errors();
-  return stepper_->project(step_.from, eq_) || stop("singular pose where a law of time jumps");
+  return stepper_->project(step_.from, eq_) || stop("singular configuration where a law of time jumps");
 }
 
 // A hundredth of the time scale of the motion.
@@ -177,7 +177,7 @@ bool Integrator::step_to(double left) {
   }
   if (failure_.empty())
     stop(eq_.regular ? "no step is small enough for the tolerance" + trouble()
-                     : "singular pose: the constraint equations have become linearly dependent");
+                     : "singular configuration: the constraint equations have become linearly dependent");
   step_.to = step_.from;
   return false;
 }
@@ -210,7 +210,7 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
     }
     const int most = event->watch.overshoot > 0 ? 200 : 40;
     if (ending == Events::Ending::impossible)
-      stop("singular pose while locating an event of " + events_.name(*event));
+      stop("singular configuration while locating an event of " + events_.name(*event));
     else if (halvings > most)
       stop("an event of " + events_.name(*event) + " cannot be located; tighten run.tolerance");
     if (!failure_.empty()) {
@@ -251,7 +251,7 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   if (step_.struck) step_.dy_before = step_.to.dy;
   if (stepper_->project(step_.to, eq_)) return true;
   undo();
-  return stop("singular pose at an event of " + events_.name(event));
+  return stop("singular configuration at an event of " + events_.name(event));
 }
 
 bool Integrator::change(const std::function<void(State&)>& act) {
@@ -264,7 +264,7 @@ bool Integrator::change(const std::function<void(State&)>& act) {
   events_.forget_end();
   step_.struck = true;
   step_.dy_before = step_.to.dy;
-  if (!stepper_->project(step_.to, eq_)) return stop("singular pose where its state was changed", step_.to.state.t);
+  if (!stepper_->project(step_.to, eq_)) return stop("singular configuration where its state was changed", step_.to.state.t);
   look_at_end();
   return true;
 }
@@ -289,7 +289,7 @@ bool Integrator::switch_method() {
   control_.forget_errors();
   events_.forget_wishes();
   events_.forget_end();
-  return stepper_->project(step_.to, eq_) || stop("singular pose");
+  return stepper_->project(step_.to, eq_) || stop("singular configuration");
 }
 
 bool Integrator::may_step(double until) {

@@ -9,7 +9,7 @@ namespace pintle {
 bool Switching::falls_back(const Stepper& stepper, const Scheme& scheme, double t) {
   if (!scheme.fallback || fallen_back_ || !stepper.passed_near_singular()) return false;
   fallen_back_ = true;
-  why_ = std::string(scheme.fallback->name) + " from t = " + number_text(t, 6) + " s on: a singular pose is near";
+  why_ = std::string(scheme.fallback->name) + " from t = " + number_text(t, 6) + " s on: a singular configuration is near";
   return true;
 }
 

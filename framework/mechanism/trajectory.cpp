@@ -21,7 +21,7 @@ std::string body_name(const System& system, int marker) {
   const int body = system.markers[at(marker)].body;
   return body == ground ? "ground" : system.bodies[at(body)].name;
 }
-/// The end whose wrench is written: b, or a where b is the ground.
+/// The end whose wrench is written: b, or a if b is the ground.
 std::size_t written_end(const System& system, int joint) {
   const int b = system.end_marker[at(system.end_begin[at(joint)] + 1)];
   return system.markers[at(b)].body == ground ? 0 : 1;
@@ -31,9 +31,9 @@ int written_marker(const System& system, int joint) {
 }
 bool is_flexible(const System& system) { return system.n() > system.n_rigid(); }
 
-/// Motion of a marker that no joint uses; of a point of a flexible body also what deformation moves it.
+/// Motion of a marker that no joint uses; for a point of a flexible body also its displacement by deformation.
 struct PointMotion {
-  Eigen::Vector2d r, v, a, u;  ///< place, velocity, acceleration in the world; displacement in body axes
+  Eigen::Vector2d r, v, a, u;  ///< position, velocity, acceleration in world axes; displacement in body axes
   double turn = 0;
 };
 PointMotion motion_of(const System& system, const Marker& m, const State& state, const Equations& eq) {
@@ -98,7 +98,7 @@ void body_columns(const System& system, std::size_t b, Out& out) {
         [i] { return std::to_string(i + 1); });
 }
 
-// What a wrench has of force and couple, on the body of a marker.
+// The force and the couple of a wrench on the body of a marker, if it has them.
 template <class Out, class OfNow>
 void wrench_columns(const System& system, const std::string& name, bool force, bool couple, int marker, const OfNow& wrench, Out& out) {
   const auto on = [&] { return " on " + body_name(system, marker); };
@@ -115,7 +115,7 @@ void wrench_columns(const System& system, const std::string& name, bool force, b
         name, {{".torque", "N m"}}, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
 }
 
-// What presses cylinders, where a theory says how hard.
+// Contact pressure between cylinders, if a theory gives it.
 template <class Out, class Force>
 void pressure_columns(const std::string& name, const std::optional<PressureTheory>& theory, const Force& force, Out& out) {
   if (!theory) return;
@@ -143,7 +143,7 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
 
 template <class Out>
 void profile_columns(const System& system, std::size_t first, Out& out) {
-  std::optional<ProfileContact> found;  // once a row
+  std::optional<ProfileContact> found;  // evaluated once per row
   const auto contact = [&](const Now& now) -> const ProfileContact& {
     if (!found) found = profile_contact(system, first, now.state, now.eq);
     return *found;
@@ -171,7 +171,7 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
     out(name, {{".force", "N"}, {".travel", "m"}}, [&](const Now& now) { return std::array{contact(now).teeth, contact(now).travel}; });
 }
 
-// Of a contact, the states of the owner's pairs that is pressed most; they are as many, one after another.
+// For a contact of several pairs, the states of the pair with the largest normal force. The states of its pairs are stored one after another.
 const InternalStates& shown(const System& system, const InternalStates& owner, const Equations& eq) {
   if (owner.owner != InternalStates::contact) return owner;
   const InternalStates* out = &owner;
@@ -222,14 +222,14 @@ void stress_columns(const System& system, const RecordedStress& s, Out& out) {
     });
 }
 
-/// Of an own state or an output: as columns write units.
+/// Unit of a state of the scene or of an output, as written in column headings.
 std::string written_unit(const std::string& unit) {
   std::string out = unit.empty() ? "1" : unit;
   std::ranges::replace(out, '*', ' ');
   return out;
 }
 
-/// A row's outputs, from its columns and the state.
+/// Appends the outputs of a row, from its columns and the state.
 void append_outputs(const Model& model, const State& state, std::size_t row, std::vector<double>& data) {
   const std::size_t first = data.size();
   std::array<double, most_law_inputs> in;
@@ -245,7 +245,7 @@ void trajectory_columns(const Model& model, Out out) {
   out("", {{"t", "s"}}, [](const Now& now) { return std::array{now.state.t}; });
   for (std::size_t b = 0; b < system.bodies.size(); ++b) body_columns(system, b, out);
   for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
-    if (is_link(system, k)) continue;  // its force stands with its clearance
+    if (is_link(system, k)) continue;  // its force is among the columns of its clearance
     const JointProperties& of = properties_of(system.joints[at(k)]);
     wrench_columns(
         system, system.joint_names[at(k)], of.force, of.couple, written_marker(system, k),

@@ -1,9 +1,9 @@
 #include <cmath>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "framework/analysis/cost/cost_estimate.h"
+#include "framework/common/text.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -34,13 +34,6 @@ Json run_cost_json(const RunCost& c) {
             {"trouble", t.trouble}}}};
 }
 
-std::string short_number(double x) {
-  std::ostringstream s;
-  s.precision(2);
-  s << x;
-  return s.str();
-}
-
 }  // namespace
 
 std::string certainty(const CostEstimate& p) {
@@ -48,7 +41,7 @@ std::string certainty(const CostEstimate& p) {
   if (!t.trouble.empty()) return "the trial run failed: " + t.trouble;
   if (t.whole) return "the trial covered the whole run: the steps are counted, not estimated";
   constexpr double even = 1.2;
-  const std::string part = short_number(100 * t.reached / p.until);
+  const std::string part = number_text(100 * t.reached / p.until, 2);
   const std::string seen = "estimated from " + std::to_string(t.steps) + " steps, the first " + part + " % of the run";
   const double spread = p.run.steps.low > 0 ? p.run.steps.high / p.run.steps.low : INFINITY;
   return seen + (spread < even ? ", where the step rate was even" : ", where the step rate was uneven, hence the range") +
@@ -81,7 +74,7 @@ std::string cost_json(const CostEstimate& p) {
                     {"memory [bytes]", std::lround(p.memory)},
                     {"certainty", certainty(p)},
                     {"what would be saved", simpler},
-                    {"not tried for want of time", p.untried}};
+                    {"not tried for lack of time", p.untried}};
   return json_text(out) + "\n";
 }
 

@@ -97,6 +97,24 @@ Json preliminary_run_json(const Model& model) {
   return {{"reached [s]", r.until}, {"steps", r.steps}, {"time [s]", r.seconds}, {"trouble", r.trouble}};
 }
 
+/// The object as text, with the scene as its last entry: put in as the text it is, because reading it again takes longer than a short run.
+std::string text_with_scene(const Json& object, const Scene& scene) {
+  if (scene.filled_in.empty()) {
+    Json with_none = object;
+    with_none["scene"] = nullptr;
+    return json_text(with_none) + "\n";
+  }
+  std::string out = json_text(object);
+  out.resize(out.size() - 2);  // "\n}"
+  out.reserve(out.size() + scene.filled_in.size() * 3 / 2);
+  out += ",\n  \"scene\": ";
+  for (const char c : scene.filled_in) {
+    out += c;
+    if (c == '\n') out += "  ";
+  }
+  return out + "\n}\n";
+}
+
 Json method_json(const Scheme& scheme, const std::string& switched) {
   return {{"name", name(scheme)}, {"reason", scheme.reason}, {"changed in the run", switched.empty() ? Json(nullptr) : Json(switched)}};
 }
@@ -159,9 +177,8 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
                     {"events", run.counts.events},
                     {"impacts", run.impacts.size()},
                     {"partitions chosen", run.counts.partitions}}},
-                  {"timings [s]", {{"integration", run.seconds}}},
-                  {"scene", scene_json(scene)}});
-  return json_text(out) + "\n";
+                  {"timings [s]", {{"integration", run.seconds}}}});
+  return text_with_scene(out, scene);
 }
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& cost) {
@@ -175,9 +192,8 @@ std::string check_json(const Scene& scene, const Model& model, const Assembly& a
                     {"flexible bodies", flexible_json(model)},
                     {"rigid run", preliminary_run_json(model)},
                     {"cost", Json::parse(cost_json(cost))},
-                    {"warnings", warnings},
-                    {"scene", scene_json(scene)}};
-  return json_text(out) + "\n";
+                    {"warnings", warnings}};
+  return text_with_scene(out, scene);
 }
 
 void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {

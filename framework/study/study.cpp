@@ -132,7 +132,7 @@ std::vector<Measure> read_curves(const StudyFile& file) {
     const std::string words = entry.text("a quantity such as x of slider or force at crank pin");
     out.push_back({words, "final " + words, entry.place(), file.study.file, question, {}});
   }
-  judge(out, common_scene(file.study.scene));
+  validate(out, common_scene(file.study.scene));
   return out;
 }
 
@@ -146,8 +146,8 @@ void refuse_loose_limits(const Node& root) {
     const bool sweeps = root.has("sweep"), only_steps = limit == std::string("most steps");
     for (const char* section : {"fit", "sensitivity"})
       if (only_steps && !sweeps && root.has(section))
-        root.at(limit).fail(std::string("stands under ") + section + " in this study; move it there");
-    root.at(limit).fail("stands under sweep in this study; move it there");
+        root.at(limit).fail(std::string("belongs under ") + section + " in this study; move it there");
+    root.at(limit).fail("belongs under sweep in this study; move it there");
   }
 }
 
@@ -182,7 +182,7 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
     return file;
   }
   file.study.measures = read_measures(root.at("measure"), path.string(), question);
-  judge(file.study.measures, common);
+  validate(file.study.measures, common);
   validate_names(file.study.measures, common, root.at("measure"));
   file.study.measures = in_situations(file.study.measures, file.study.scene.situations);
   return file;

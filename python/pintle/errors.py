@@ -1,12 +1,12 @@
-"""Errors. Those about a scene say where it is wrong: `file`, `line`, `key`, `message`."""
+"""Exceptions. Those about a scene say where the fault is: `file`, `line`, `key`, `message`."""
 
 
 class Error(Exception):
-    """Of this package."""
+    """Base class of the exceptions of this package."""
 
 
 class _Placed(Error):
-    """`file`, `line` and `key` are None where there is none; `message` is what is wrong there and what to do about it."""
+    """`file`, `line` and `key` are None if unknown; `message` says what is wrong and how to correct it."""
 
     file = None
     line = None
@@ -19,11 +19,11 @@ class SceneError(_Placed, ValueError):
 
 
 class AssemblyError(_Placed):
-    """The mechanism cannot be put together at t = 0, or is not driven in all its freedoms."""
+    """The mechanism cannot be assembled at t = 0, or drivers do not prescribe all its degrees of freedom."""
 
 
 class RunError(Error):
-    """No answer was found. `result` has what was computed, or is None."""
+    """The analysis failed. `result` is what was computed, or None."""
 
     def __init__(self, message, result=None):
         super().__init__(message)
@@ -31,4 +31,4 @@ class RunError(Error):
 
 
 class ModelWarning(UserWarning):
-    """What makes numbers doubtful."""
+    """A reason to doubt the results."""

@@ -1,4 +1,4 @@
-"""What analyses have found."""
+"""Results of the analyses."""
 
 import html
 import json
@@ -14,7 +14,7 @@ from .tables import Headed, Table
 
 
 class Impact(NamedTuple):
-    """One contact from touch to parting; NaN where it goes on. SI units."""
+    """One contact from its beginning to its end; NaN if it has not ended. SI units."""
 
     contact: str
     begin: float
@@ -28,7 +28,7 @@ class Impact(NamedTuple):
 
 
 class Event(NamedTuple):
-    """What an event of the scene has done."""
+    """An occurrence of an event of the scene."""
 
     event: str
     t: float
@@ -36,7 +36,7 @@ class Event(NamedTuple):
 
 
 class Result(Table):
-    """A motion: `result["crank.angle"]` is a column of its trajectory."""
+    """Result of a run: `result["crank.angle"]` is a column of its trajectory."""
 
     def __init__(self, core):
         super().__init__(*core.trajectory)
@@ -48,7 +48,7 @@ class Result(Table):
 
     @property
     def ledger(self):
-        """Where the energy is and where it went."""
+        """Table of the stored energies and of the energy supplied and lost."""
         return Table(*self._core.ledger)
 
     @property
@@ -77,16 +77,16 @@ class Result(Table):
 
     @property
     def unexplained(self):
-        """Energy that the ledger leaves unexplained at the end [J]."""
+        """Unexplained energy of the ledger at the end [J]."""
         return self._core.unexplained
 
     @property
     def info(self):
-        """What run.json, or that of another question, holds."""
+        """The content of run.json, or of the JSON file of another analysis."""
         return json.loads(self._core.info)
 
     def write(self, directory):
-        """Leaves the files of `pintle run`, or of another question, in a new folder."""
+        """Writes the files of `pintle run`, or of another analysis, into a new folder."""
         if Path(directory).exists():
             raise FileExistsError(f"{directory} already exists; name another folder, or remove it")
         self._write(str(directory))
@@ -95,7 +95,7 @@ class Result(Table):
         self._core.write(directory)
 
     def report(self, file):
-        """Writes one page for a browser: motion, plots, impacts, ledger."""
+        """Writes one HTML page: motion, plots, impacts, ledger."""
         with tempfile.TemporaryDirectory() as place:
             folder = Path(place) / "run"
             self.write(folder)
@@ -122,13 +122,13 @@ class Result(Table):
 
 
 def warn(texts, level=3):
-    """By the code that called what calls this; `level` as warnings has it."""
+    """Issues a warning at the code that called the caller; `level` is the stack level of `warnings.warn`."""
     for text in texts:
         warnings.warn(text, ModelWarning, stacklevel=level)
 
 
-def judged(result, check):
-    """Raises RunError of a run that failed; warns of what is doubtful."""
+def checked(result, check):
+    """Raises RunError if the run failed; issues its warnings."""
     if check and result.status in ("failed", "out of memory"):
         raise RunError(f"{result.status}: {result.reason}", result)
     warn(([result.reason] if result.status == "ledger over its bound" else []) + result.warnings, 4)
@@ -136,7 +136,7 @@ def judged(result, check):
 
 
 class Effort(NamedTuple):
-    """What a driver must do: torque or thrust over time."""
+    """Effort of a driver over time: its torque or force."""
 
     driver: str
     unit: str
@@ -156,7 +156,7 @@ class InverseResult(Result):
 
     @property
     def info(self):
-        """What inverse.json holds."""
+        """The content of inverse.json."""
         return json.loads(self._inverse.info)
 
     def _write(self, directory):
@@ -164,7 +164,7 @@ class InverseResult(Result):
 
 
 class Rest(Table):
-    """Where a mechanism rests: `rest["spring.length"]` is one number."""
+    """Static equilibrium of a mechanism: `rest["spring.length"]` is one number."""
 
     def __init__(self, core):
         super().__init__(*core.table)
@@ -175,17 +175,17 @@ class Rest(Table):
 
     @property
     def stable(self):
-        """None if that was not judged."""
+        """None if stability was not determined."""
         return core.unstable == 0 and core.neutral == 0 if (core := self._core).judged else None
 
     @property
     def unstable(self):
-        """Directions in which it falls away."""
+        """Number of unstable directions."""
         return self._core.unstable
 
     @property
     def neutral(self):
-        """Directions in which it stays where it is put."""
+        """Number of neutral directions."""
         return self._core.neutral
 
     @property
@@ -194,7 +194,7 @@ class Rest(Table):
 
     @property
     def info(self):
-        """What statics.json holds."""
+        """The content of statics.json."""
         return json.loads(self._core.info)
 
     def __repr__(self):
@@ -202,7 +202,7 @@ class Rest(Table):
 
 
 class LinearMode(NamedTuple):
-    """A solution shape·exp(root t) of the small motion."""
+    """A solution shape·exp(root t) of the linearised motion."""
 
     kind: str
     frequency: float  # [Hz]
@@ -215,7 +215,7 @@ class LinearMode(NamedTuple):
 
 
 class SmallMotion:
-    """x' = A x + B u, y = C x + D u about a state, and the modes of it."""
+    """The linearised motion about a state, x' = A x + B u, y = C x + D u, and its modes."""
 
     def __init__(self, core):
         self._core = core
@@ -227,7 +227,7 @@ class SmallMotion:
 
     @property
     def info(self):
-        """What linearized.json holds."""
+        """The content of linearized.json."""
         return json.loads(self._core.info)
 
     def __repr__(self):
@@ -248,7 +248,7 @@ class BodyModes(NamedTuple):
 
 
 class Modes:
-    """`natural` as the body is held; `reduced` what a mechanism gets, if the body says `modes`."""
+    """`natural`: modes of the body as it is held; `reduced`: the modes that a mechanism uses, if the body has the key `modes`."""
 
     def __init__(self, core):
         self.body, self.rigid, self.mass = core.body, core.rigid, core.mass
@@ -264,7 +264,7 @@ class Modes:
 
 
 class Simulation(Headed):
-    """A run by hand: on to a time, read columns, set states of the scene, and on.
+    """A run step by step: advance to a time, read columns, set states of the scene, advance again.
 
     Set the inputs of a controller as states whose rate is 0."""
 
@@ -280,7 +280,7 @@ class Simulation(Headed):
         return self._core.time
 
     def advance(self, t):
-        """On to time t [s], through all events before it. False once the run is over. ValueError where t is not ahead."""
+        """Advances to time t [s], through all events before it. False if the run has ended. ValueError if t is not later than now."""
         if not t > self.t and not self._over:
             raise ValueError(f"advance to {t} s: it must be after {self.t} s, the present time of the simulation")
         self._row = None
@@ -303,8 +303,8 @@ class Simulation(Headed):
         self._core.set(self._states[name][0], value)
 
     def result(self, check=True):
-        """Ends the run and gives what it found."""
-        return judged(Result(self._core.finish()), check)
+        """Ends the run and returns its result."""
+        return checked(Result(self._core.finish()), check)
 
     def __repr__(self):
         return f"<simulation at t = {self.t:.6g} s>"

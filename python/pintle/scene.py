@@ -1,15 +1,15 @@
-"""Scenes and the questions that can be asked of them."""
+"""Scenes and their analyses."""
 
 import json
 import os
 
 from . import _core
 from .errors import RunError
-from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion, judged, warn
+from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion, checked, warn
 
 
 def plain(value):
-    """Of NumPy, as JSON has it."""
+    """Converts NumPy values to those of JSON."""
     for convert in ("tolist", "__fspath__"):
         if hasattr(value, convert):
             return getattr(value, convert)()
@@ -17,7 +17,7 @@ def plain(value):
 
 
 def overrides(values):
-    """{name: value} as pairs of texts."""
+    """{name: value} as pairs of strings."""
     texts = {}
     for name, value in (values or {}).items():
         texts[name] = value if isinstance(value, str) else json.dumps(value, default=plain, ensure_ascii=False)
@@ -25,7 +25,7 @@ def overrides(values):
 
 
 class Scene:
-    """A mechanism as it is written. It never changes: `set` and `with_law` give another one."""
+    """A scene. It is immutable: `set` and `with_law` return a new one."""
 
     def __init__(self, core):
         self._core = core
@@ -36,7 +36,7 @@ class Scene:
 
     @property
     def parameters(self):
-        """By name, in SI."""
+        """Values by name, in SI units."""
         return dict(self._core.parameters)
 
     def as_dict(self):
@@ -50,30 +50,30 @@ class Scene:
     def with_law(self, name, function, of):
         """The scene with the law of a force, a state or an output given by a Python function.
 
-        `of` names what it is called with, signals and "t"; all in SI. A force returns its x and y. Implicit methods, `statics` and
+        `of` names its arguments, signals and "t", all in SI units. A force returns its x and y components. Implicit methods, `statics` and
         `linearize` find its derivatives by differences."""
         if not callable(function):
             raise TypeError(f"the law of {name!r} must be a function, not {function!r}")
         return Scene(self._core.with_law(name, function, [of] if isinstance(of, str) else list(of)))
 
     def check(self):
-        """What `pintle check --json` says of the scene."""
+        """The output of `pintle check --json`."""
         return json.loads(self._core.check())
 
     def run(self, check=True):
-        """Runs the scene. `check`: a run that fails raises RunError, which keeps what was computed."""
-        return judged(_found(Result, _core.run, self._core), check)
+        """Runs the scene. `check`: a failed run raises RunError, whose `result` has what was computed."""
+        return checked(_found(Result, _core.run, self._core), check)
 
     def kinematics(self, check=True):
-        """The motion that drivers impose."""
-        return judged(_found(Result, _core.kinematics, self._core), check)
+        """Kinematics: the motion that drivers prescribe."""
+        return checked(_found(Result, _core.kinematics, self._core), check)
 
     def inverse(self, check=True):
-        """The efforts of drivers and the forces in joints."""
-        return judged(_found(InverseResult, _core.inverse, self._core), check)
+        """Inverse dynamics: the efforts of drivers and the forces in joints."""
+        return checked(_found(InverseResult, _core.inverse, self._core), check)
 
     def statics(self, at=0.0):
-        """Where the mechanism rests, drivers and loads as they are at a time [s]."""
+        """Static equilibrium, with drivers and loads as at the time `at` [s]."""
         core = _core.statics(self._core, at)
         if not core.found:
             raise RunError(f"no equilibrium: {core.reason}")
@@ -81,7 +81,7 @@ class Scene:
         return Rest(core)
 
     def linearize(self, at=None, at_rest=False):
-        """The small motion about the start, about the run's state at a time [s], or about where the mechanism rests."""
+        """Linearisation about the start, about the run's state at a time [s], or about the static equilibrium."""
         try:
             core = _core.linearize(self._core, at, at_rest)
         except RuntimeError as error:
@@ -92,11 +92,11 @@ class Scene:
         return SmallMotion(core)
 
     def modes(self, body="", count=6):
-        """Natural modes of one body of elements; its name may be left out where there is one alone."""
+        """Natural modes of one body of elements; the name may be omitted if there is only one."""
         return Modes(_core.modes(self._core, body, count))
 
     def simulation(self):
-        """A run by hand."""
+        """A run step by step."""
         return Simulation(_core.Simulation(self._core))
 
     def __repr__(self):
@@ -104,7 +104,7 @@ class Scene:
 
 
 def _found(kind, analyse, core):
-    """What an analysis found; where Ctrl-C or a signal's handler stopped it, the exception's `result` is what was computed."""
+    """Runs an analysis. If Ctrl-C or a signal handler stops it, the exception's `result` is what was computed."""
     try:
         return kind(analyse(core))
     except BaseException as stop:
@@ -114,12 +114,12 @@ def _found(kind, analyse, core):
 
 
 def load(file, set=None):
-    """A scene file. `set`: {name: value} of parameters, or of any keys by their paths."""
+    """Reads a scene file. `set`: {name: value} of parameters, or of any keys by their paths."""
     return Scene(_core.Scene.of_file(os.fspath(file), overrides(set)))
 
 
 def parse(scene, set=None, folder="."):
-    """A scene as YAML text, or as a dict of what a scene file holds; files that it names are sought from `folder`."""
+    """Reads a scene from YAML text, or from a dict with the content of a scene file; its file names are relative to `folder`."""
     if isinstance(scene, str):
         return Scene(_core.Scene.of_text(scene, "scene", os.fspath(folder), overrides(set)))
     text = json.dumps(scene, default=plain, ensure_ascii=False, indent=1)
@@ -127,7 +127,7 @@ def parse(scene, set=None, folder="."):
 
 
 def trust(folders=(), geo=False):
-    """From now on scenes may read files in these folders, beside their own, and, with `geo`, drawings may do all that they ask for,
+    """Allows scenes to read files in these folders besides their own and, with `geo`, drawings to run all their commands,
     shell commands included (SECURITY.md)."""
     one = isinstance(folders, (str, os.PathLike))
     _core.trust([os.fspath(folder) for folder in ([folders] if one else folders)], geo)

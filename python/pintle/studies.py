@@ -1,4 +1,4 @@
-"""Studies: many runs, as a study file asks for them."""
+"""Studies: the many runs of a study file."""
 
 import csv
 import io
@@ -20,7 +20,7 @@ def _threads(threads):
 
 
 def _table(text):
-    """Columns of numbers as a Table, those of words by name; empty fields are NaN."""
+    """Columns of numbers as a Table, columns of text by name; empty fields are NaN."""
     header, *rows = csv.reader(io.StringIO(text))
     numbers, words = {}, {}
     for heading, column in zip(header, zip(*rows) if rows else [()] * len(header)):
@@ -34,7 +34,7 @@ def _table(text):
 
 @contextmanager
 def _files(study, out):
-    """The study's file and the folder of its results. A dict is written down, its scene being sought from here."""
+    """The study's file and the folder of its results. A dict is written to a file; its scene is relative to the current folder."""
     with tempfile.TemporaryDirectory() as place:
         if isinstance(study, dict):
             file = Path(place) / "study.yaml"
@@ -46,7 +46,7 @@ def _files(study, out):
 
 
 class SweepResult(Table):
-    """A row for each case; columns are what was varied and what was measured."""
+    """A row for each case; columns are the varied parameters and the measures."""
 
     def __init__(self, text, info):
         table, self.words = _table(text)
@@ -55,7 +55,7 @@ class SweepResult(Table):
 
 
 class FitResult(Table):
-    """A row for each case that was tried."""
+    """A row for each case that was computed."""
 
     def __init__(self, text, info, met, file, best, point, measures):
         table, self.words = _table(text)
@@ -68,12 +68,12 @@ class FitResult(Table):
 
 
 def sweep(study, out=None, set=None, threads=None):
-    """Runs the cases of a study, a file or a dict of what it holds. `out`: the folder that it leaves its files in, and goes on from; without it nothing is kept."""
+    """Runs the cases of a study, given as a file or a dict of its content. `out`: the folder of its files, from which it continues; without it nothing is kept."""
     with _files(study, out) as (file, folder):
         return SweepResult(*_core.sweep(file, folder, overrides(set), _threads(threads)))
 
 
 def fit(study, out=None, set=None, threads=None):
-    """Finds parameters that reach the goal of a study, a file or a dict; `scene` of the result is the scene with them, None if no point was found."""
+    """Finds parameters that reach the goal of a study, given as a file or a dict; `scene` of the result is the scene with them, or None if none were found."""
     with _files(study, out) as (file, folder):
         return FitResult(*_core.fit(file, folder, overrides(set), _threads(threads)))

@@ -4,13 +4,13 @@ import difflib
 
 
 def split(heading):
-    """The name and the unit of a heading: "gudgeon pin.normal [N]", "coupler.fx on crank [N]"."""
+    """Splits a heading into name and unit: "gudgeon pin.normal [N]", "coupler.fx on crank [N]"."""
     name, bracket, unit = heading.rpartition(" [")
     return (name, unit[:-1]) if bracket and unit.endswith("]") else (heading, "")
 
 
 class Columns:
-    """Names as headings have them, found by these or, where that is one alone, without " on BODY"."""
+    """Names of headings; a name is also found without " on BODY" if that is unique."""
 
     def __init__(self, headings):
         self.names, self.units = [], []
@@ -36,23 +36,23 @@ class Columns:
 
 
 class Headed:
-    """What has columns with names and units."""
+    """Base class of results with named columns and units."""
 
     def __init__(self, headings):
         self._columns = Columns(headings)
 
     @property
     def names(self):
-        """Of the columns, in their order."""
+        """Names of the columns, in order."""
         return list(self._columns.names)
 
     def unit(self, name):
-        """Of a column; "" of a number."""
+        """Unit of a column; "" if it is a number."""
         return self._columns.units[self._columns.place(name)]
 
 
 class Table(Headed):
-    """Rows of numbers, a column each quantity; `table["crank.angle"]` is an array that shares the memory of the run."""
+    """Rows of numbers with a column for each quantity; `table["crank.angle"]` is an array that shares the memory of the run."""
 
     def __init__(self, headings, data):
         super().__init__(headings)
@@ -86,7 +86,7 @@ class Table(Headed):
         return frame
 
     def plot(self, *names, against=None, axes=None):
-        """Draws columns over the time, or over the column `against`, by matplotlib: one picture for each unit.
+        """Draws columns over the time, or over the column `against`, with matplotlib: one plot for each unit.
 
         Returns the axes, or a list of them if there are several."""
         import matplotlib.pyplot

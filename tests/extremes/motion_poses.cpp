@@ -1,4 +1,4 @@
-// Singular poses: flat starts, dead centres, triangles that are hardly any.
+// Singular configurations: flat starts, dead centres, triangles that are hardly any.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -83,13 +83,14 @@ Axis flat_starts() {
             {}};
   for (const double off : {0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5})
     for (const bool driven : {false, true})
-      axis.cases.push_back({off, printed("%g rad", off), driven ? "driven" : "free", End::warned, "the start is a singular pose", [=] {
-                              FourBar m = parallelogram(off);
-                              m.driven = driven, m.until = 0.5;
-                              const Attempt a = attempt(text(m));
-                              if (!a.whole()) return ended(a);
-                              return measured(a, std::max(apart(a.last("crank.angle"), 2.5), apart(a.last("rocker.angle"), 2.5)), 1e-5);
-                            }});
+      axis.cases.push_back(
+          {off, printed("%g rad", off), driven ? "driven" : "free", End::warned, "the start is a singular configuration", [=] {
+             FourBar m = parallelogram(off);
+             m.driven = driven, m.until = 0.5;
+             const Attempt a = attempt(text(m));
+             if (!a.whole()) return ended(a);
+             return measured(a, std::max(apart(a.last("crank.angle"), 2.5), apart(a.last("rocker.angle"), 2.5)), 1e-5);
+           }});
   FourBar through = parallelogram(0);
   through.angle = 1, through.rocker = 1, through.driven = true, through.until = 3;
   for (const char* method : {"auto", "generalized-alpha"})
@@ -100,7 +101,7 @@ Axis flat_starts() {
              FourBar m = through;
              m.method = method, m.speed = speed;
              const Attempt a = attempt(text(m));
-             const bool stops = a.end == End::stopped && a.said.find("a singular pose") != std::string::npos && m.method == "auto";
+             const bool stops = a.end == End::stopped && a.said.find("a singular configuration") != std::string::npos && m.method == "auto";
              if (stops && a.trouble.empty())
                all.push_back({End::finished, "", "", apart(a.last("rocker.angle"), a.last("crank.angle")), 1e-5});
              else

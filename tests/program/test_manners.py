@@ -72,7 +72,7 @@ class Manners(unittest.TestCase):
                         f"forces: {{f: {{torque: 1 m*hinge.{column}, on: rod}}}}\n"):
                 said = self.refusal(use)
                 self.assertIn(f'refused.yaml:7: ', said)
-                self.assertIn(f'there is no signal "hinge.{column}". "hinge" is an ideal joint, and has angle', said)
+                self.assertIn(f'there is no signal "hinge.{column}". "hinge" is an ideal joint and has angle', said)
                 self.assertIn("only joints with clearance", said)
         self.assertIn('Did you mean "rod.angle"?', self.refusal("outputs: {seen: rod.angel}\n"))
         self.assertIn('"rod" has alpha', self.refusal("outputs: {seen: rod.stroke}\n"))

@@ -164,10 +164,10 @@ class Functions(unittest.TestCase):
     def test_what_a_function_gives_is_named_where_it_is_not_that(self):
         pushed = arm.replace("servo: {torque: torque, on: arm}", "push: {force: [0 N, 0 N], at: arm.O}")
         for given in (1.0, "ab", (1, 2, 3), None, ("a", "b")):
-            with self.assertRaisesRegex(TypeError, '"push" gave .*two numbers'):
+            with self.assertRaisesRegex(TypeError, '"push" returned .*two numbers'):
                 pintle.parse(pushed).with_law("push", lambda t, speed: given, of=["t", "arm.speed"]).run()
         for given in ("a", (1, 2), None):
-            with self.assertRaisesRegex(TypeError, '"servo" gave .*a number'):
+            with self.assertRaisesRegex(TypeError, '"servo" returned .*a number'):
                 pintle.parse(arm).with_law("servo", lambda t, speed: given, of=["t", "arm.speed"]).run()
 
     def test_an_output_in_python(self):

@@ -20,7 +20,7 @@ using pintle_report_test::write_run;
 
 bool there_is_a_browser() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
 
-/// What the page tells of itself with #check in its address.
+/// What the page reports about itself with #check in its address.
 Json shown_by_browser(const Folder& folder, const fs::path& page) {
   const std::string dom = (folder.path() / "dom.html").string();
   const std::string command =

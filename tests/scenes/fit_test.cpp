@@ -161,7 +161,7 @@ TEST(Fit, IsTheSameToTheBitForAnyNumberOfWorkersAndAfterAnyEnd) {
       EXPECT_EQ(contents(folder / "one" / file), contents(folder / other / file)) << file << " of " << other;
   EXPECT_FALSE(fs::exists(folder / "torn/fit-so-far.csv"));
   // Masses below 0 are refused, and not the end.
-  const auto refused = std::ranges::count_if(one.end.tried, [](const Trying& t) { return t.row.status == "refused"; });
+  const auto refused = std::ranges::count_if(one.end.tried, [](const FitCase& t) { return t.row.status == "refused"; });
   EXPECT_GT(refused, 2);
   EXPECT_TRUE(one.end.meets(one.plan));
 }

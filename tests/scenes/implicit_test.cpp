@@ -332,7 +332,7 @@ TEST(Method, WarnsWhereStabilityHoldsItsStepsAndNotOtherwise) {
     pintle_test::expect_says(warned("1e5", method), {"stability, not accuracy", "the spring \"d\"", "take method: auto"});
     EXPECT_EQ(warned("2", method), "") << method;
   }
-  pintle_test::expect_says(warned("1e5", "dopri5", "partitioning"), {"leave out constraints: partitioning"});
+  pintle_test::expect_says(warned("1e5", "dopri5", "partitioning"), {"remove constraints: partitioning"});
   EXPECT_EQ(warned("1e5", "generalized-alpha"), "");
 }
 

@@ -1,4 +1,4 @@
-// Driven motions against closed forms, through singular poses, and to the end of reach.
+// Driven motions against closed forms, through singular configurations, and to the end of reach.
 #include "framework/analysis/kinematics/kinematics.h"
 
 #include <gtest/gtest.h>

@@ -18,7 +18,7 @@ namespace pintle_scenes {
 
 /// The steady state found by Newton's method from `near`, at its time and turned as it is; its
 /// speeds are not read. Laws of time hold still there but for the drive.
-/// @throws std::runtime_error  singular pose, no convergence
+/// @throws std::runtime_error  singular configuration, no convergence
 pintle::State steady_state(const pintle::System&, const pintle::State& near, double w = 0);
 
 /// p̈ = A p + B ṗ.

@@ -302,8 +302,8 @@ TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
     EXPECT_TRUE(said.starts_with("study.yaml:7: measure.name: ")) << said;
     pintle_test::expect_says(said, b.says);
   }
-  EXPECT_THROW(judge({{"late", "x of slider at 51 ms"}}, scene), SceneError);
-  EXPECT_NO_THROW(judge({{"in time", "x of slider at 50 ms"}}, scene));
+  EXPECT_THROW(validate({{"late", "x of slider at 51 ms"}}, scene), SceneError);
+  EXPECT_NO_THROW(validate({{"in time", "x of slider at 50 ms"}}, scene));
 }
 
 TEST(Measure, PreparesRowsForItsWindowAndItsInstants) {

@@ -133,7 +133,7 @@ TEST(NamedStates, AControllerMayLeadAnother) {
   EXPECT_EQ(a.run.trajectory.column("arm.angle [rad]"), b.run.trajectory.column("arm.angle [rad]"));
   const std::string said = pintle_test::refusal_by(
       [&] { scene(by("dopri5", "states:\n  u: {pid: v, gains: [1, 0, 0]}\n  v: {pid: u + 1, gains: [1, 0, 0]}\n")); });
-  expect_says(said, {"would follow from itself"});
+  expect_says(said, {"would depend on itself"});
 }
 
 // The loop of u = 11 e + 6 ∫e − 6 ω about I = 1 has the poles −1, −2, −3; the rate is taken of the arm itself.

@@ -58,7 +58,7 @@ TEST(SetParameter, TheSceneFilledInReadsBack) {
 TEST(SetParameter, WhereAValueIsMadeOnceItIsRefusedByName) {
   const auto refusal = [](std::string text) { return pintle_test::refusal_by([&] { build(scene(text)); }); };
   expect_one_line(refusal(swing + "events: {heavy: {when: t > 1 s, do: {set: {mass: 2 kg}}}}\n"),
-                  "scene.yaml:3: bodies.arm.rigid.mass: ", {"mass is a parameter that an event sets", "made once"});
+                  "scene.yaml:3: bodies.arm.rigid.mass: ", {"mass is a parameter that an event sets", "evaluated once"});
   expect_one_line(
       refusal(swing + "drivers: {d: {angle: [ground, arm], law: k*t/(1 N m s)}}\nevents: {e: {when: t > 1 s, do: {set: {k: 2 N m}}}}\n"),
       "scene.yaml:9: drivers.d.law: ", {"k is a parameter that an event sets"});

@@ -248,8 +248,8 @@ TEST(BadSignalMap, IsRefusedWithPlaceAndRemedy) {
   expect_says(refusal("{table: map.csv, over: [rotor.speed, throttle], outside: holds}"), {"outside", "hold"});
   const std::string over = "{table: map.csv, over: [rotor.speed, throttle]}";
   expect_says(refusal(over, "c, 0, 1\n0, 1, 2\n1, 2\n"), {"map.csv:3: ", "write 3: one of rotor.speed"});
-  expect_says(refusal(over, "c, 0, 1\n0, 1, 2\n0, 2, 3\n"), {"map.csv:3: ", "rotor.speed 0 does not come after", "increase"});
-  expect_says(refusal(over, "c, 1, 0\n0, 1, 2\n1, 2, 3\n"), {"map.csv:1: ", "throttle 0 does not come after"});
+  expect_says(refusal(over, "c, 0, 1\n0, 1, 2\n0, 2, 3\n"), {"map.csv:3: ", "rotor.speed 0 is not greater than", "increase"});
+  expect_says(refusal(over, "c, 1, 0\n0, 1, 2\n1, 2, 3\n"), {"map.csv:1: ", "throttle 0 is not greater than"});
   expect_says(refusal(over, "c, 0, 1\n0, 1, 2\n"), {"map.csv: ", "a grid of 1 by 2"});
   expect_says(refusal(over, "c, 0, 1\n0, 1, 2\n1, 2, x\n"), {"map.csv:3: ", "\"x\" is not a number"});
   EXPECT_EQ(refusal(over, "0 0 1\n0 1 2\n1 2 3\n"), "accepted");  // a number in the corner

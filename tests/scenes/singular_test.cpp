@@ -1,4 +1,4 @@
-// Redundant joints and singular poses: whole runs against motions of one coordinate, integrated here.
+// Redundant joints and singular configurations: whole runs against motions of one coordinate, integrated here.
 
 #include <gtest/gtest.h>
 
@@ -171,7 +171,7 @@ TEST(ParallelCranks, MoveThoughOverconstrainedAndPassTheirFlatPoses) {
     }
 }
 
-// What is redundant in every pose is no singular pose: the pair that was chosen runs to the end, in about the steps of the
+// What is redundant in every pose is no singular configuration: the pair that was chosen runs to the end, in about the steps of the
 // mechanism with two cranks, which swings alike; and however the world is turned.
 TEST(ParallelCranks, KeepTheMethodThatWasChosenAndItsSteps) {
   const double angle = -M_PI / 2, until = 6;  // hanging, far from flat

@@ -185,7 +185,7 @@ TEST(TradeAdvice, AxesThatNobodyNamedAreListed) {
 
 TEST(TradeAdvice, WithinABudgetTheReferenceBeginsWithWhatIsCheapAndStandsForTheErrorWanted) {
   // Below a tolerance of 1e-7 a run takes longer than all there is; the study's finest is 1e-8.
-  const CaseRunner dear = [](const Overrides& set, const std::vector<Measure>& m, const CaseLimits& l) {
+  const CaseRunner expensive = [](const Overrides& set, const std::vector<Measure>& m, const CaseLimits& l) {
     Outcome o = known(set, m, l);
     o.run_seconds = number_of(set, "run.tolerance", 1e-8) < 0.9e-7 ? 1e6 : 1e-3;
     return o;
@@ -193,7 +193,7 @@ TEST(TradeAdvice, WithinABudgetTheReferenceBeginsWithWhatIsCheapAndStandsForTheE
   TradePlan plan = known_plan();
   plan.axes[0] = axis("tolerance", "run.tolerance", {"1e-4", "1e-8"});
   plan.error = 0.01;
-  const Reference r = find_reference(plan, one, dear, 20, 40);
+  const Reference r = find_reference(plan, one, expensive, 20, 40);
   ASSERT_EQ(r.trouble, "");
   EXPECT_TRUE(r.of[0].converged) << r.of[0].words;
   EXPECT_GE(r.of[0].error, std::abs(r.of[0].value - 2));

@@ -82,7 +82,7 @@ State start_for(const System& system, State start) {
 }
 
 /// Two runs from one start as far as both come for what they may cost. One that does not come to the end is compared a little before,
-/// not just where an event or a singular pose has ended it.
+/// not just where an event or a singular configuration has ended it.
 Ends ends_of(const Model& first, const Model& second, const State& start, double until, double seconds) {
   constexpr double short_of_the_end = 0.97;
   const Budget first_budget{1000, seconds / 20}, second_budget{5000, seconds / 10}, enough{1e9, seconds};

@@ -136,21 +136,21 @@ TEST(BadModes, StaticCasesAreJudged) {
 TEST(BadModes, UnitsThatAreNoneAreNamedWithAWayOut) {
   const auto said = [](const std::string& mass) { return refusal_of(spoiled("0.21 kg", mass)); };
   const std::string place = "scene.yaml:8: bodies.coupler.beam.mass: ";
-  expect_one_line(said("5 lb"), place, {"lb is no unit here", "0.45359237 kg", "Units: m, km, cm"});
+  expect_one_line(said("5 lb"), place, {"lb is not a unit here", "0.45359237 kg", "Units: m, km, cm"});
   expect_one_line(said("5 Kg"), place, {"did you mean kg?", "Units: m, km, cm"});
-  expect_one_line(said("5 stone"), place, {"stone is no unit here", "Units: m, km, cm"});
+  expect_one_line(said("5 stone"), place, {"stone is not a unit here", "Units: m, km, cm"});
   expect_one_line(said("5 mA"), place, {"\"5 mA\" is a current"});
   expect_one_line(said("5 bar"), place, {"\"5 bar\" is a stress"});
   const auto torque = [](const std::string& text) { return refusal_of(spoiled("5 N m}", text + "}")); };
-  expect_one_line(torque("5 Nm"), "scene.yaml:48: ", {"Nm is no unit here", "N m"});
+  expect_one_line(torque("5 Nm"), "scene.yaml:48: ", {"Nm is not a unit here", "N m"});
   expect_one_line(torque("5 kNm"), "scene.yaml:48: ", {"kN m"});
-  expect_one_line(refusal_of(spoiled("thickness: 8 mm", "thickness: 5 inch")), "scene.yaml:30: ", {"inch is no unit here", "25.4 mm"});
+  expect_one_line(refusal_of(spoiled("thickness: 8 mm", "thickness: 5 inch")), "scene.yaml:30: ", {"inch is not a unit here", "25.4 mm"});
 }
 
 TEST(BadModes, AParameterBesideANumberIsToldToMultiply) {
   std::string text = spoiled("circle: 10 mm", "circle: 2 d");
   text.insert(0, "parameters: {d: 5 mm}\n");
-  expect_one_line(refusal_of(text), "scene.yaml:9: ", {"nothing stands between 2 and d: write 2*d"});
+  expect_one_line(refusal_of(text), "scene.yaml:9: ", {"there is no operator between 2 and d: write 2*d"});
 }
 
 }  // namespace

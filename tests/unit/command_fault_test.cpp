@@ -180,7 +180,7 @@ TEST_P(Commands, SayInWordsThatMemoryEnds) {
 }
 
 /// Waits until the program takes this signal itself.
-bool heeds(pid_t program, int signal) {
+bool catches(pid_t program, int signal) {
   for (int k = 0; k < 2000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
     std::istringstream status(contents("/proc/" + std::to_string(program) + "/status"));
     for (std::string line; std::getline(status, line);)
@@ -210,7 +210,7 @@ TEST_P(Commands, StoppedBySignalEndWithSixAndAWord) {
     fs::remove_all(results());
     fs::create_directory(results());
     const pid_t child = start(folder_.path() / "log", all);
-    ASSERT_TRUE(heeds(child, signal));
+    ASSERT_TRUE(catches(child, signal));
     // Until it writes, if it does that while it computes.
     for (int k = 0; k < 20 && fs::is_empty(results()); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     ::kill(child, signal);

@@ -117,7 +117,7 @@ TEST(Quantity, SumOfDifferentDimensionsIsRefused) {
 
 TEST(Quantity, UnknownNameSuggestsTheNearest) {
   expect_says(refusal("clearence"), {"\"clearence\" is neither", "Did you mean \"clearance\"?"});
-  expect_says(refusal("2 gpa"), {"nothing stands between 2 and gpa"});
+  expect_says(refusal("2 gpa"), {"there is no operator between 2 and gpa"});
   expect_says(refusal("gpa"), {"Did you mean \"GPa\"?"});
   expect_says(refusal("sine(1)"), {"no function \"sine\"", "Did you mean \"sin\"?"});
   expect_says(refusal("50 Hz"), {"Hz"});
@@ -137,7 +137,7 @@ TEST(Quantity, MalformedTextSaysWhatIsMissing) {
   expect_says(refusal("2)"), {"was not opened"});
   expect_says(refusal("2*"), {"ends too early"});
   expect_says(refusal("1,5 mm"), {"decimal point"});
-  expect_says(refusal("2 3"), {"nothing stands between 2 and 3"});
+  expect_says(refusal("2 3"), {"there is no operator between 2 and 3"});
   expect_says(refusal(""), {"empty"});
   expect_says(refusal("sin(1, 2)", {}), {"too many arguments"});
   expect_says(refusal("atan2(1)", {}), {"too few arguments"});

@@ -157,22 +157,22 @@ TEST(Grammar, NumbersAreDecimal) {
   EXPECT_EQ(number("5.e2"), 500);
   EXPECT_EQ(number("007"), 7);
   EXPECT_EQ(read_quantity("1e5m").value, 1e5);
-  expect_refused("0x10", ", character 2: nothing stands between 0 and x10");
-  expect_refused("0b1", ", character 2: nothing stands between 0 and b1");
-  expect_refused("1_000", ", character 2: nothing stands between 1 and _000");
-  expect_refused("1.2.3", ", character 4: nothing stands between 1.2 and .3");
-  expect_refused("1e", ", character 2: nothing stands between 1 and e, and e is no unit here: Euler's number is exp(1)");
+  expect_refused("0x10", ", character 2: there is no operator between 0 and x10");
+  expect_refused("0b1", ", character 2: there is no operator between 0 and b1");
+  expect_refused("1_000", ", character 2: there is no operator between 1 and _000");
+  expect_refused("1.2.3", ", character 4: there is no operator between 1.2 and .3");
+  expect_refused("1e", ", character 2: there is no operator between 1 and e, and e is not a unit here: Euler's number is exp(1)");
   expect_refused("1 + 1e-400", ", character 5: 1e-400 is too large or too small");
 }
 
 TEST(Refusal, NamesWhatStandsWhereAValueShould) {
-  expect_refused("2 * * 3", ", character 5: the operator * stands where a value should");
-  expect_refused("&& 1", ", character 1: the operator && stands where a value should");
-  expect_refused("1 <> 2", ", character 4: the operator > stands where a value should");
-  expect_refused("2*()", ", character 4: a parenthesis stands where a value should");
-  expect_refused("(1 +)", ", character 5: a parenthesis stands where a value should");
-  expect_refused("min(1,)", ", character 7: a parenthesis stands where a value should");
-  expect_refused("min(,1)", ", character 5: a comma stands where a value should");
+  expect_refused("2 * * 3", ", character 5: the operator * is where a value should be");
+  expect_refused("&& 1", ", character 1: the operator && is where a value should be");
+  expect_refused("1 <> 2", ", character 4: the operator > is where a value should be");
+  expect_refused("2*()", ", character 4: a parenthesis is where a value should be");
+  expect_refused("(1 +)", ", character 5: a parenthesis is where a value should be");
+  expect_refused("min(1,)", ", character 7: a parenthesis is where a value should be");
+  expect_refused("min(,1)", ", character 5: a comma is where a value should be");
 }
 
 TEST(Refusal, SaysAfterWhatItEnds) {
@@ -182,9 +182,9 @@ TEST(Refusal, SaysAfterWhatItEnds) {
 
 TEST(Refusal, PointsToTheParenthesisOrComma) {
   expect_refused("2*(3 + (4)", ", character 3: a parenthesis is not closed");
-  expect_refused("2 + 3)", ", character 6: a parenthesis closes that was not opened");
-  expect_refused("2*(1, 2)", ", character 5: a comma stands outside a function");
-  expect_refused("1,5", ", character 2: a comma stands outside a function");
+  expect_refused("2 + 3)", ", character 6: a parenthesis is closed but was not opened");
+  expect_refused("2*(1, 2)", ", character 5: a comma is outside a function");
+  expect_refused("1,5", ", character 2: a comma is outside a function");
 }
 
 TEST(Refusal, CountsArgumentsOfAFunction) {
@@ -199,7 +199,7 @@ TEST(Refusal, OfANameHasTheNearestOne) {
   expect_refused("1 + sine(1)", ", character 5: there is no function \"sine\". Did you mean \"sin\"?");
   expect_refused("2*ln(2)", ", character 3: there is no function \"ln\": the natural logarithm is log");
   expect_refused("2*gpa", ", character 3: \"gpa\" is neither a parameter nor a unit. Did you mean \"GPa\"?");
-  expect_refused("1 + sin", ", character 5: the function sin needs its parentheses");
+  expect_refused("1 + sin", ", character 5: the function sin needs parentheses");
 }
 
 TEST(Refusal, OfAnOperationPointsToItsOperator) {

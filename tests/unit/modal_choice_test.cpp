@@ -31,7 +31,7 @@ const double EI = 200e9 * 0.01 * 8e-6 / 12, rhoA = 8000 * 2e-4;
 double cantilever(double beta) { return beta * beta * std::sqrt(EI / rhoA); }  // [rad/s], L = 1 m
 
 Model built(const std::string& text) { return build(with_pieces(read_scene_text(text, "test.yaml"))); }
-Model rehearsed(const std::string& text) { return build_with_preliminary_run(with_pieces(read_scene_text(text, "test.yaml"))); }
+Model with_preliminary_run(const std::string& text) { return build_with_preliminary_run(with_pieces(read_scene_text(text, "test.yaml"))); }
 
 Run ran(const std::string& text) {
   const Scene scene = read_scene_text(text, "test.yaml");
@@ -232,20 +232,20 @@ TEST(FlexibleReport, CoversEverythingWithACompleteBasis) {
 TEST(PreliminaryRun, IsForCheckAndForChoosingAlone) {
   const std::string text = clamped("{frame: {tangent: A}, count: 2}", "run: {until: 1}\n");
   EXPECT_FALSE(built(text).preliminary_run);
-  EXPECT_TRUE(rehearsed(text).preliminary_run);
+  EXPECT_TRUE(with_preliminary_run(text).preliminary_run);
   EXPECT_TRUE(built(clamped("{frame: {tangent: A}, keep: auto}", "run: {until: 1}\n")).preliminary_run);
-  EXPECT_FALSE(rehearsed("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n").preliminary_run);
+  EXPECT_FALSE(with_preliminary_run("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n").preliminary_run);
 }
 
 TEST(PreliminaryRun, EstimatesTheDeflectionOfASuddenWeight) {
-  const Model model = rehearsed("gravity: [0, -9.81]\n" + clamped("{frame: {tangent: A}, count: 4}", "run: {until: 1}\n"));
+  const Model model = with_preliminary_run("gravity: [0, -9.81]\n" + clamped("{frame: {tangent: A}, count: 4}", "run: {until: 1}\n"));
   const double still = rhoA * 9.81 / (8 * EI);
   // Twice the static deflection in the first mode, which has 97 % of it; others beat with it.
   EXPECT_NEAR(model.flexible[0].motion->deflection / (2 * still), 1, 0.05);
 }
 
 TEST(PreliminaryRun, TellsTheFrequencyThatAForceExcites) {
-  const Model model = rehearsed(
+  const Model model = with_preliminary_run(
       clamped("{frame: {tangent: A}, count: 4}", "forces: {p: {force: [0, \"10 N*sin(2*pi*40/s*t)\"], at: rod.B}}\nrun: {until: 1 s}\n"));
   EXPECT_NEAR(model.flexible[0].motion->excited_up_to, 40, 2);  // a window's width
 }
@@ -282,7 +282,7 @@ TEST(Doubt, OnStiffeningThatSpinWouldBring) {
                "joints: {root: {revolute: [ground, rod.A]}}\nstart: {rod: {angle: 0, speed: " + std::to_string(w) +
                "}}\nrun: {until: 0.1}\n");
   };
-  const Model quick = built(blade(spin, "")), seen = rehearsed(blade(spin, ""));
+  const Model quick = built(blade(spin, "")), seen = with_preliminary_run(blade(spin, ""));
   EXPECT_TRUE(warns(quick.warnings, "raise its first frequency by 13.9 %; add stiffening: rotation")) << raised;
   EXPECT_TRUE(warns(seen.warnings, "add stiffening: rotation"));
   EXPECT_NEAR(seen.flexible[0].motion->by_all_loads, raised, 5e-3);
@@ -297,19 +297,19 @@ TEST(Doubt, OnStiffeningThatForcesAtPointsWouldBring) {
     return clamped("{frame: {tangent: A}, count: 4}",
                    more + "forces: {p: {force: [" + std::to_string(force) + ", 0], at: rod.B}}\nrun: {until: 0.01}\n");
   };
-  const Model pulled = rehearsed(text(pull, ""));
+  const Model pulled = with_preliminary_run(text(pull, ""));
   EXPECT_TRUE(warns(pulled.warnings, "add stiffening: axial"));
   EXPECT_NEAR(pulled.flexible[0].motion->by_all_loads, 0.025, 5e-3);
-  EXPECT_LT(rehearsed(text(-pull, "")).flexible[0].motion->by_all_loads, -0.02);
-  EXPECT_TRUE(warns(rehearsed(text(-25 * pull, "")).warnings, "buckle"));
+  EXPECT_LT(with_preliminary_run(text(-pull, "")).flexible[0].motion->by_all_loads, -0.02);
+  EXPECT_TRUE(warns(with_preliminary_run(text(-25 * pull, "")).warnings, "buckle"));
 }
 
 TEST(Doubt, OnBendingTooFarForOneFrame) {
   std::string soft = "gravity: [0, -9.81]\n" + clamped("{frame: {tangent: A}, count: 2}", "run: {until: 0.3, tolerance: 1e-6}\n");
-  EXPECT_FALSE(warns(rehearsed(soft).warnings, "pieces"));
+  EXPECT_FALSE(warns(with_preliminary_run(soft).warnings, "pieces"));
   EXPECT_FALSE(warns(ran(soft).warnings, "pieces"));
   soft.replace(soft.find("200 GPa"), 7, "2 GPa");
-  EXPECT_TRUE(warns(rehearsed(soft).warnings, "\"rod\" would bend by"));
+  EXPECT_TRUE(warns(with_preliminary_run(soft).warnings, "\"rod\" would bend by"));
   EXPECT_TRUE(warns(ran(soft).warnings, "\"rod\" bent by"));
 }
 

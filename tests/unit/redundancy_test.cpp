@@ -124,7 +124,7 @@ TEST(Redundancy, OfAFlatParallelogramIsOfThisPoseOnly) {
     if (angle != 0) continue;
     EXPECT_FALSE(j.assembly.redundant[0].permanent);
     ASSERT_EQ(warnings_of(j.model, j.assembly).size(), 1u);
-    EXPECT_NE(warnings_of(j.model, j.assembly)[0].find("singular pose"), std::string::npos);
+    EXPECT_NE(warnings_of(j.model, j.assembly)[0].find("singular configuration"), std::string::npos);
   }
 }
 

@@ -329,7 +329,7 @@ TEST(SavedState, ARunThatGoesOnSaysWhatItHasNotSeen) {
     ran.scene.run.until = 0.011;
     const pintle::Run rest = simulate(ran.scene, ran.model, ran.assembly, {}, &ran.state);
     EXPECT_NE(rest.status, Status::failed) << rest.reason;
-    EXPECT_EQ(std::ranges::count_if(rest.warnings, [](const std::string& w) { return says(w, "this run goes on from 0.01 s"); }),
+    EXPECT_EQ(std::ranges::count_if(rest.warnings, [](const std::string& w) { return says(w, "this run continues from 0.01 s"); }),
               linked ? 1 : 0);
   }
 }

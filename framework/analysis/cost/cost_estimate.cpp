@@ -13,6 +13,7 @@
 #include "framework/analysis/simulate/explain_failure.h"
 #include "framework/build/choose_method.h"
 #include "framework/common/processor_time.h"
+#include "framework/common/text.h"
 #include "framework/common/work_done.h"
 #include "framework/integration/integrator.h"
 #include "framework/mechanism/drawing.h"
@@ -157,8 +158,6 @@ double resident() {
   double size = 0, pages = 0;
   return in >> size >> pages ? pages * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0;
 }
-
-std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 template <class List, class Is>
 std::size_t how_many(const List& list, Is is) {

@@ -8,6 +8,7 @@
 
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/common/dense.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
 #include "framework/configuration/unsound_laws.h"
@@ -19,12 +20,6 @@ namespace {
 
 using Eigen::VectorXd;
 using Index = Eigen::Index;
-
-std::string listed(const std::vector<std::string>& all) {
-  std::string out;
-  for (const std::string& s : all) out += (out.empty() ? "\"" : ", \"") + s + "\"";
-  return out;
-}
 
 std::vector<std::string> driver_names(const System& system) {
   std::vector<std::string> out;
@@ -155,12 +150,12 @@ std::string DrivenMotion::why() {
     for (std::size_t b = 0; b < system_.bodies.size() && b < 4; ++b)
       at_pose += (b ? ", " : "") + system_.bodies[b].name + " " + number_text(state_.y[static_cast<Index>(3 * b) + 2], 6) + " rad";
     if (svd.singularValues()[last] > 1e-3 * svd.singularValues()[0])
-      return "no configuration near the angles " + at_pose + " satisfies the law of " + listed(asking) +
+      return "no configuration near the angles " + at_pose + " satisfies the law of " + some_of(asking) +
              ": drivers contradict each other, a law jumps, or a length is out of reach; correct the law";
-    return "dead centre or end of reach at the angles " + at_pose + ": the law of " + listed(asking) +
-           " cannot be followed further; it no longer determines where " + listed(moving) + " goes; change the law, or drive another body";
+    return "dead centre or end of reach at the angles " + at_pose + ": the law of " + some_of(asking) +
+           " cannot be followed further; it no longer determines where " + some_of(moving) + " goes; change the law, or drive another body";
   }
-  return "a singular pose, or one that " + listed(asking) + " cannot reach";
+  return "a singular configuration, or one that " + some_of(asking) + " cannot reach";
 }
 
 void require_driven(const Scene& scene, const Model& model, const Assembly& assembly) {
@@ -174,7 +169,7 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   place.key = "drivers";
   if (!loose.empty())
     throw AssemblyError(scene.file, place,
-                        "the clearance at " + listed(loose) +
+                        "the clearance at " + some_of(loose) +
                             " leaves degrees of freedom that no driver moves; leave `clearance` out here, or use `pintle run`");
   if (open <= 0) return;
   // A displacement that violates no row, obtained from one that moves everything.
@@ -193,7 +188,7 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
   throw AssemblyError(scene.file, place,
                       std::to_string(open) + (open == 1 ? " degree of freedom is" : " degrees of freedom are") + " not driven" +
                           (singular ? " at the starting pose, which may be a singular one (dead centre, flat linkage)" : "") + ": " +
-                          listed(moving) + (moving.size() == 1 ? " moves" : " move") + " freely; add a driver for each, " +
+                          some_of(moving) + (moving.size() == 1 ? " moves" : " move") + " freely; add a driver for each, " +
                           (singular ? "or start from another pose, " : "") + "or use `pintle run`");
 }
 

@@ -91,11 +91,11 @@ Eigenpairs eigenpairs(MatrixXd A) {
 struct Companion {
   Companion(const SmallMotion& s, const MatrixXd& L) : m(s.M.rows()), x(s.G_x.rows()), A(MatrixXd::Zero(2 * m + x, 2 * m + x)) {
     const auto lower = L.triangularView<Eigen::Lower>();
-    const auto weighed = [&](const MatrixXd& of) -> MatrixXd {
+    const auto mass_normalised = [&](const MatrixXd& of) -> MatrixXd {
       const MatrixXd half = lower.solve(of);
       return lower.solve(half.transpose()).transpose();
     };
-    const MatrixXd K = weighed(s.K), D = weighed(s.D);
+    const MatrixXd K = mass_normalised(s.K), D = mass_normalised(s.D);
     if (m > 0) sigma = std::max({std::sqrt(K.cwiseAbs().maxCoeff()), D.cwiseAbs().maxCoeff(), 1e-150});
     A.block(0, m, m, m).diagonal().setConstant(sigma);
     A.block(m, 0, m, m) = -K / sigma;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "framework/common/dense.h"
+
 namespace pintle {
 
 using Eigen::Index;
@@ -25,12 +27,12 @@ namespace {
 double difference(const SmallMotion& a, const SmallMotion& b, double rate) {
   if (a.M.rows() == 0) return 0;
   const Eigen::LLT<MatrixXd> llt(a.M);
-  const auto weighed = [&](const MatrixXd& A) -> MatrixXd {
+  const auto mass_normalised = [&](const MatrixXd& A) -> MatrixXd {
     const MatrixXd half = llt.matrixL().solve(A);
     return llt.matrixL().solve(half.transpose()).transpose();
   };
   const auto worst = [&](const MatrixXd& from, const MatrixXd& to, double floor) {
-    const MatrixXd A = weighed(from), change = (weighed(to) - A).cwiseAbs();
+    const MatrixXd A = mass_normalised(from), change = (mass_normalised(to) - A).cwiseAbs();
     const VectorXd size = A.diagonal().cwiseAbs().cwiseSqrt();
     const double noise = 1e-9 * A.cwiseAbs().maxCoeff();
     return change.cwiseQuotient(((size * size.transpose()).array() + floor + noise).matrix()).maxCoeff();

@@ -27,7 +27,7 @@ void end_short(Run& run, double t) {
     run.status = Status::out_of_memory;
     std::ostringstream s;
     s << "after t = " << t
-      << " s there was not enough memory to go on; end other programs, raise the limit (ulimit -v), or make the model smaller";
+      << " s there was not enough memory to continue; end other programs, raise the limit (ulimit -v), or make the model smaller";
     run.reason = s.str();
   }
 }

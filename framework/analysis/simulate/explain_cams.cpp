@@ -23,7 +23,7 @@ std::string explain_cams(const Scene& scene, const Model& model, const State& no
     const double angle = b.angle - a.angle + system.markers[at(frame)].angle, beyond = angle + std::copysign(ahead, b.w - a.w);
     if (std::isfinite(curve(angle)) && std::isfinite(curve(beyond))) continue;
     return "the cam " + quoted(j.name) + " (" + (j.place.file.empty() ? scene.file : j.place.file) + ":" + std::to_string(j.place.line) +
-           ") has come to the end of its table " + j.coupling->curve.text + " at t = " + number_text(now.t, 9) + " s, where its angle is " +
+           ") has reached the end of its table " + j.coupling->curve.text + " at t = " + number_text(now.t, 9) + " s, where its angle is " +
            number_text(degrees * angle, 9) + " deg: lengthen the table, let it span a whole turn, or end the run before";
   }
   return "";

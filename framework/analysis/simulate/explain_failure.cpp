@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "framework/analysis/simulate/explain_cams.h"
 #include "framework/build/laws.h"
+#include "framework/common/text.h"
 #include "framework/configuration/redundancy.h"
 #include "framework/configuration/unsound_laws.h"
 
 namespace pintle {
 
 namespace {
-
-std::string short_number(double x) {
-  std::ostringstream s;
-  s.precision(3);
-  s << x;
-  return s.str();
-}
 
 /// Bodies with the least and the most inertia against a force, in translation or rotation.
 struct Unlike {
@@ -51,15 +44,15 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
     angle = std::max(angle, std::abs(integrator.state().y[3 * static_cast<Eigen::Index>(b) + 2]));
   if (angle > many)
-    return "an angle has come to " + short_number(angle) + " rad, whose last digit moves points by " +
-           short_number(angle * 2.2e-16 * system.length) + " m; begin again from this state with angles in one turn";
+    return "an angle has reached " + number_text(angle, 3) + " rad, whose last digit moves points by " +
+           number_text(angle * 2.2e-16 * system.length, 3) + " m; begin again from this state with angles in one turn";
   const Schur& rows = integrator.sampled().schur;
   if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0) return "";
   const Unlike bodies = most_unlike(system);
   constexpr double hopeless = 1e12;  // the lighter is lost in sums with the heavier
   if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
-  return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + short_number(1 / bodies.ratio) + " of that of \"" +
-         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + short_number(rows.kept()) +
+  return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + number_text(1 / bodies.ratio, 3) + " of that of \"" +
+         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + number_text(rows.kept(), 3) +
          " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
          "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
          "what it carries, or take method: generalized-alpha";

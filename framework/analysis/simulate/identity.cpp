@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/common/sha256.h"
+#include "framework/common/some_of.h"
 #include "framework/common/library_threads.h"
 #include "framework/common/value_writer.h"
 
@@ -254,13 +255,6 @@ std::vector<std::string> differing(const Json& one, const Json& other) {
   return out;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 5;
-  std::string out;
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  return out + (names.size() > most ? " and others" : "");
-}
-
 }  // namespace
 
 std::string identity(const Scene& scene, const Model& model, const Assembly& assembly) {
@@ -282,9 +276,10 @@ std::string difference(const std::string& saved, const std::string& now) {
   const std::string remedy = "; restore them and the --set values, or run the scene from its start";
   std::string out;
   if (!words.empty())
-    out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " + listed(words) +
-          (words.size() > 1 ? " are others" : " is another");
-  if (!files.empty()) out += (out.empty() ? "" : ", and ") + std::string("a file that the scene names has changed since: ") + listed(files);
+    out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " +
+          some_of(words, false) + (words.size() > 1 ? " are others" : " is another");
+  if (!files.empty())
+    out += (out.empty() ? "" : ", and ") + std::string("a file that the scene names has changed since: ") + some_of(files, false);
   if (!out.empty()) return out + remedy;
   if (part("mechanism") == is["mechanism"]) return "";
   const auto other = [&](const char* name, const char* what) {
@@ -296,7 +291,7 @@ std::string difference(const std::string& saved, const std::string& now) {
   other("blas", "BLAS");
   if (!out.empty())
     return "holds a mechanism whose numbers have other last digits than this one's: " + out +
-           "; go on with what it was saved by (of OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
+           "; continue with what it was saved by (for OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
   return "belongs to another scene: the numbers of its mechanism are others, though its words and files are not; restore what was made in "
          "C++, or run the scene from its start";
 }

@@ -43,8 +43,8 @@ void warn_of_gap(const System& system, const Model& model, const SavedState& fro
   const bool linked = std::ranges::any_of(system.contacts, [](const ContactPair& c) { return is_held(c); });
   if (!linked && model.bending.empty()) return;
   run.warnings.push_back(
-      "this run goes on from " + number_text(from.t, 3) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
-      (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was judged by the run that saved it");
+      "this run continues from " + number_text(from.t, 3) + " s: " + (linked ? "whether a massless link pushed" : "how far bodies bent") +
+      (linked && !model.bending.empty() ? " and how far bodies bent" : "") + " before that was checked by the run that saved it");
 }
 
 void warn_of_pushing(const System& system, Run& run) {
@@ -55,7 +55,7 @@ void warn_of_pushing(const System& system, Run& run) {
     std::ostringstream s;
     s.precision(3);
     s << "\"" << system.contact_names[c] << "\": the massless link pushed, with up to " << -force.least << " N, in " << force.pushing
-      << " of " << force.rows << " outputs, as no wall could pull: contact would be lost there";
+      << " of " << force.rows << " outputs; a wall cannot pull: contact would be lost there";
     run.warnings.push_back(s.str());
   }
 }
@@ -68,7 +68,7 @@ void warn_of_lifting(const System& system, Run& run) {
     if (pulls == 0) continue;
     run.warnings.push_back("\"" + system.joint_names[k] + "\": the rolling disc was held down, with up to " +
                            number_text(-*std::ranges::min_element(normal), 3) + " N, in " + std::to_string(pulls) + " of " +
-                           std::to_string(normal.size()) + " outputs: it would lift off there; a contact lets it");
+                           std::to_string(normal.size()) + " outputs: it would lift off there; model it by a contact");
   }
 }
 
@@ -76,13 +76,13 @@ void warn_of_stiffness(const Scene& scene, const Model& model, double share, Run
   constexpr double most = 0.5;
   if (!(share > most)) return;
   const bool rigid = std::ranges::any_of(model.system.contacts, [](const ContactPair& c) { return is_rigid(c); });
-  const std::string remedy = rigid                                     ? "soften or damp less what is so fast, or give the contacts a law"
-                             : scene.run.constraints == "partitioning" ? "leave out constraints: partitioning, and take method: auto"
+  const std::string remedy = rigid ? "make what is so fast softer or less damped, or give the contacts a law"
+                             : scene.run.constraints == "partitioning" ? "remove constraints: partitioning, and take method: auto"
                              : scene.run.method != "auto"              ? "take method: auto, or generalized-alpha"
                                                                        : "take method: generalized-alpha";
   const std::string& fast = model.scheme.stiff;
-  run.warnings.push_back("stability, not accuracy, held " + number_text(std::round(100 * share)) + " % of the explicit steps" +
-                         (fast.empty() ? "" : "; what decays fastest is " + fast) + ": " + remedy);
+  run.warnings.push_back("stability, not accuracy, limited " + number_text(std::round(100 * share)) + " % of the explicit steps" +
+                         (fast.empty() ? "" : "; the fastest decay is that of " + fast) + ": " + remedy);
 }
 
 std::vector<std::string> never_came(const Scene& scene, const Run& run) {

@@ -2,20 +2,20 @@
 
 #include "framework/analysis/simulate/simulate.h"
 
-/// What makes the numbers of a run doubtful, told by the run itself.
+/// Warnings about doubtful results, from what the run has recorded.
 namespace pintle {
 
-/// A journal that went deeper into its wall than any contact law holds.
+/// Penetration deeper than any contact law is valid for.
 void warn_of_depth(const System&, Run&);
-/// What is judged by rows is judged by those of this run, which goes on from a saved state.
+/// Checks over all rows cover only the rows of this run, which continues from a saved state.
 void warn_of_gap(const System&, const Model&, const SavedState& from, Run&);
-/// A massless link holds the journal at the wall whether the wall presses or not.
+/// A massless link that pushes: it keeps the journal at the wall even where a wall would have to pull.
 void warn_of_pushing(const System&, Run&);
-/// A disc that rolls is held in contact, whether it presses or not.
+/// A rolling disc that would lift off: the joint keeps it in contact even where it would have to pull.
 void warn_of_lifting(const System&, Run&);
-/// Explicit steps that stability held, not accuracy, and what would do with fewer. @param share  of the steps
+/// Explicit steps limited by stability instead of accuracy, with a remedy. @param share  of the steps
 void warn_of_stiffness(const Scene&, const Model&, double share, Run&);
-/// Events of the scene that have not come in the run so far.
+/// Events of the scene that have not occurred in the run so far.
 std::vector<std::string> never_came(const Scene&, const Run&);
 
 }  // namespace pintle

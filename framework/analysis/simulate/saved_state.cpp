@@ -101,7 +101,7 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
   try {
     Integrator trial(model.system, model.scheme, assembly.start);
     trial.load(state.memory);
-    if (trial.state().t != state.t) throw std::invalid_argument("it is of another time than it says");
+    if (trial.state().t != state.t) throw std::invalid_argument("its time differs from the one that it names");
   } catch (const std::invalid_argument& why) {
     throw reject(std::string("cannot be gone on from: ") + why.what() + "; take another saved state, or run the scene from its start");
   }

@@ -291,8 +291,8 @@ void Simulation::explain() {
   } else {
     std::ostringstream s;
     s << "t = " << asked_
-      << " s: the output there cannot be evaluated (a singular pose, or numbers beyond what a double holds: check masses, stiffnesses "
-         "and speeds)";
+      << " s: the output there cannot be evaluated (a singular configuration, or numbers beyond what a double holds: check masses, "
+         "stiffnesses and speeds)";
     reason = s.str();
   }
 }

@@ -6,6 +6,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/rigid_contacts.h"
 #include "framework/dynamics/equations/sharing.h"
@@ -102,13 +103,10 @@ MatrixXd directions_of(const Equations& eq, const Closed& closed, std::vector<in
 }
 
 std::string listed(const System& system, const std::vector<int>& contacts) {
-  constexpr std::size_t most = 4;
   std::vector<std::string> names;
   for (const int c : contacts)
     if (const std::string& name = system.contact_names[at(c)]; std::ranges::find(names, name) == names.end()) names.push_back(name);
-  std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) out += (i ? ", " : "") + pintle::quoted(names[i]);
-  return names.size() > most ? out + " and " + std::to_string(names.size() - most) + " more" : out;
+  return some_of(names);
 }
 
 }  // namespace

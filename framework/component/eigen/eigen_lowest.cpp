@@ -30,7 +30,7 @@ constexpr double share = 1e-10;       // shift relative to ΣK_ii/ΣM_ii
 constexpr double dense_share = 1e-6;  // the same if all pairs are computed
 constexpr double cluster = 1e-6;      // a relative gap below which no count is attempted
 
-void judge(const Sparse& K, const Sparse& M, const EigenOptions& o) {
+void validate(const Sparse& K, const Sparse& M, const EigenOptions& o) {
   if (K.rows() != K.cols() || M.rows() != M.cols() || K.rows() != M.rows()) {
     std::ostringstream text;
     text << "K is " << K.rows() << " by " << K.cols() << " and M " << M.rows() << " by " << M.cols()
@@ -168,7 +168,7 @@ void last_iteration(const Subspace& space, const Search& s, EigenPairs& out) {
 }  // namespace
 
 EigenPairs eigen_lowest(const Sparse& K, const Sparse& M, const EigenOptions& options) {
-  judge(K, M, options);
+  validate(K, M, options);
   const Index n = K.rows(), p = options.count;
   const double scale = stiffness_over_mass(K, M);
   if (n <= small || (4 * p > n && n <= dense_limit) || 2 * p > n)
@@ -188,7 +188,7 @@ EigenPairs eigen_lowest(const Sparse& K, const Sparse& M, const EigenOptions& op
 EigenPairs eigen_below(const Sparse& K, const Sparse& M, double limit, const EigenOptions& options) {
   EigenOptions o = options;
   o.count = 1;
-  judge(K, M, o);
+  validate(K, M, o);
   o.count = negative_eigenvalues(shifted(K, M, limit));
   EigenPairs out;
   if (o.count == 0) {

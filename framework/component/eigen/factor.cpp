@@ -100,7 +100,7 @@ struct Factor::Data {
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
 
-  void judge(const Sparse& A) const {
+  void validate(const Sparse& A) const {
     if (L && common.status >= 0) return;
     throw std::runtime_error("a matrix of " + std::to_string(A.rows()) +
                              " degrees of freedom could not be factored: the status of CHOLMOD is " + std::to_string(common.status) +
@@ -156,7 +156,7 @@ void Factor::analyse(const Sparse& A) {
   d.L = cholmod_analyze(&a, &d.common);
   memory.require();
   d.places = std::move(places);
-  d.judge(A);
+  d.validate(A);
   d.symbolic.reset();
   if (!d.L->is_super) d.symbolic.emplace(A, static_cast<const int*>(d.L->Perm));
 }
@@ -166,7 +166,7 @@ bool Factor::compute(const Sparse& A) {
   Data& d = *data_;
   cholmod_sparse a = view(A);
   cholmod_factorize(&a, d.L, &d.common);
-  d.judge(A);
+  d.validate(A);
   const int n = static_cast<int>(A.rows()), minor = static_cast<int>(d.L->minor);
   const int lost = minor < n ? minor : d.lost_pivot(A);
   d.pivot = lost < 0 ? -1 : static_cast<const int*>(d.L->Perm)[lost];

@@ -126,7 +126,7 @@ void add_average_rows(const FeModel& model, const Rim& rim, int port, Triplets& 
   }
 }
 
-void judge(const FeModel& model, const std::vector<NodePort>& nodes, const std::vector<RimPort>& rims) {
+void validate(const FeModel& model, const std::vector<NodePort>& nodes, const std::vector<RimPort>& rims) {
   const auto count = static_cast<std::size_t>(model.x.cols());
   if (!model.ports.empty()) throw std::invalid_argument("the model has ports already; add all of them at once");
   std::vector<std::string> names;
@@ -159,7 +159,7 @@ void judge(const FeModel& model, const std::vector<NodePort>& nodes, const std::
 }  // namespace
 
 void add_ports(FeModel& model, const std::vector<NodePort>& nodes, const std::vector<RimPort>& rims) {
-  judge(model, nodes, rims);
+  validate(model, nodes, rims);
   std::vector<CoupledShape> shapes;
   for (const RimPort& port : rims) shapes.push_back(coupled_shape(model, port));
   const int N = model.N();

@@ -94,7 +94,7 @@ ModalModel diagonalised(const Component& c, const ReferenceConditions& condition
 
 ModalModel normal_modes(const Component& c, const ReferenceConditions& conditions, const Keep& keep) {
   if (conditions.kind != ReferenceConditions::mean_axes)
-    return modal_model(c, conditions, held_modes(c, permitted_motions(c, conditions), keep, "the body under its tie"));
+    return modal_model(c, conditions, held_modes(c, permitted_motions(c, conditions), keep, "the body under its reference conditions"));
   Modes modes = elastic_modes(c, keep);
   modes.shapes = meeting_conditions(c, conditions, modes.shapes);
   return modal_model(c, conditions, modes);

@@ -28,7 +28,7 @@ struct Modes {
   std::optional<int> sturm;
 };
 /// Modes of a supported body, whose displacements are u = V y; V has at most one entry per row.
-/// @param whose  name in errors: "the body under its tie"
+/// @param whose  name in errors: "the body under its reference conditions"
 Modes held_modes(const Component&, const Sparse& V, const Keep&, const std::string& whose);
 /// Elastic modes of the free body.
 Modes elastic_modes(const Component&, const Keep&);

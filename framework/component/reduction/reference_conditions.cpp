@@ -19,9 +19,9 @@ const Port& port_at(const FeModel& model, int index, const std::string& what) {
 }
 
 const Port& turning_port(const FeModel& model, const ReferenceConditions& conditions) {
-  const Port& a = port_at(model, conditions.a, "tangent tie: port a");
+  const Port& a = port_at(model, conditions.a, "tangent frame: port a");
   if (a.freedom[2] < 0)
-    throw std::invalid_argument("tangent tie: port \"" + a.name +
+    throw std::invalid_argument("tangent frame: port \"" + a.name +
                                 "\" cannot turn (a node of plane elements has no rotation); use a port "
                                 "in a hole or on a rim, the chord of two ports, or mean axes");
   return a;
@@ -32,12 +32,12 @@ struct Chord {
   Eigen::Vector2d along;  // unit vector from a to b
 };
 Chord chord_of(const FeModel& model, const ReferenceConditions& conditions) {
-  const Port& a = port_at(model, conditions.a, "chord tie: port a");
-  const Port& b = port_at(model, conditions.b, "chord tie: port b");
+  const Port& a = port_at(model, conditions.a, "chord frame: port a");
+  const Port& b = port_at(model, conditions.b, "chord frame: port b");
   const Eigen::Vector2d d = b.x - a.x;
   if (d.norm() <= 1e-9 * extent(model))
-    throw std::invalid_argument("chord tie: ports \"" + a.name + "\" and \"" + b.name +
-                                "\" coincide; name two at different positions, or use the tangent tie");
+    throw std::invalid_argument("chord frame: ports \"" + a.name + "\" and \"" + b.name +
+                                "\" coincide; name two at different positions, or use the tangent frame");
   return {a, b, d.normalized()};
 }
 

@@ -81,10 +81,10 @@ Equations::Equations(const System& system)
   W.resize(system.n_rigid());
   constexpr double alike = 100;  // inverse inertias within this ratio lose no more than two digits to rounding
   double least = std::numeric_limits<double>::infinity(), most = 0;
-  const auto weigh_in = [&](double w) { least = std::min(least, w), most = std::max(most, w); };
-  for (const Body& body : system.bodies) weigh_in(1 / body.m);
+  const auto include = [&](double w) { least = std::min(least, w), most = std::max(most, w); };
+  for (const Body& body : system.bodies) include(1 / body.m);
   for (const Marker& m : system.markers)
-    if (m.body != ground) weigh_in(1 / system.bodies[at(m.body)].m + m.x_BP.squaredNorm() / system.bodies[at(m.body)].J);
+    if (m.body != ground) include(1 / system.bodies[at(m.body)].m + m.x_BP.squaredNorm() / system.bodies[at(m.body)].J);
   uneven = !flexible.empty() || most > alike * least;
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
     W.segment<3>(static_cast<Index>(3 * b)) << 1 / system.bodies[b].m, 1 / system.bodies[b].m, 1 / system.bodies[b].J;

@@ -15,10 +15,12 @@ double velocity_violation(const System& system, const VectorXd& y, const Equatio
   return largest(eq.Cdot.cwiseProduct(system.row_scale)) / fastest_rate(system, y);
 }
 
+// Places far from the origin, as in a chain of thousands of links, round as angles of many turns do.
 double angle_rounding(const System& system, const VectorXd& y) {
-  double angle = 0;
-  for (Index b = 2; b < system.n_rigid(); b += 3) angle = worse(angle, std::abs(y[b]));
-  return 1.1e-16 * angle;
+  double most = 0;
+  for (Index b = 0; b < system.n_rigid(); b += 3)
+    most = worse(most, worse(std::abs(y[b + 2]), y.segment<2>(b).lpNorm<Eigen::Infinity>() / system.length));
+  return 1.1e-16 * most;
 }
 
 double fastest_rate(const System& system, const VectorXd& y) {

@@ -47,9 +47,7 @@ void number_switches(System& system) {
   }
 }
 
-}  // namespace
-
-void number(System& system, bool scheme_loses) {
+void number_coordinates(System& system) {
   system.eta_begin.assign(1, system.n_rigid());
   for (const Body& b : system.bodies) system.eta_begin.push_back(system.eta_begin.back() + b.modes());
   system.scale.setConstant(system.n(), system.length);
@@ -57,7 +55,9 @@ void number(System& system, bool scheme_loses) {
     system.scale[3 * static_cast<Eigen::Index>(b) + 2] = 1;
     system.scale.segment(system.eta_begin[b], system.bodies[b].modes()) *= std::sqrt(system.bodies[b].m);
   }
+}
 
+void number_rows(System& system) {
   system.row_begin.assign(1, 0);
   system.end_begin.assign(1, 0);
   system.end_marker.clear();
@@ -72,7 +72,9 @@ void number(System& system, bool scheme_loses) {
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     for (int row = system.row_begin[k]; row < system.row_begin[k + 1]; ++row)
       system.row_scale[row] = is_angle_row(system.joints[k], row - system.row_begin[k]) ? 1 : 1 / system.length;
+}
 
+void number_integrals(System& system, bool scheme_loses) {
   auto account = [&](Account what, std::size_t i) {
     system.integrals.push_back({what, static_cast<int>(i)});
     return static_cast<int>(system.integrals.size()) - 1;
@@ -106,7 +108,14 @@ void number(System& system, bool scheme_loses) {
     if (system.bodies[i].modes() > 0 && !system.bodies[i].flex->zeta.isZero()) account(Account::damping, i);
   for (std::size_t i = 0; i < system.switches.size(); ++i) account(Account::switching, i);
   if (scheme_loses) account(Account::scheme, 0);
+}
 
+}  // namespace
+
+void number(System& system, bool scheme_loses) {
+  number_coordinates(system);
+  number_rows(system);
+  number_integrals(system, scheme_loses);
   number_internal(system);
   number_switches(system);
 }

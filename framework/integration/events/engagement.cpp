@@ -157,7 +157,7 @@ std::string of_rigid_contacts(const System& system, const State& state) {
 std::string strike_joints(const System& system, std::span<const SwitchOver> changes, State& state, Equations& eq, Engagement& out) {
   pose(system, state.t, state.y, eq);
   factor(system, state.y, eq);
-  if (!eq.regular) return "cannot be engaged in a singular pose";
+  if (!eq.regular) return "cannot be engaged in a singular configuration";
   speed(system, state.t, state.y, eq);
   share_impulse(system, changes, state, eq, out);
   if (!project(system, state.t, state.y, eq)) return "cannot be engaged: other joints do not let it close";

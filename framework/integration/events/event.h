@@ -62,6 +62,9 @@ struct Happening {
   }
 };
 
+/// Fault of a saved state whose modes do not fit the system.
+inline constexpr const char* foreign_modes = "it belongs to another system, or has invalid numbers";
+
 /// Events of one kind: guards with directions, and what happens where they pass zero. A group owns the modes between its
 /// events. The integrator finds the first event in a step, ends the step there and has the group act. At one instant
 /// groups act in their `order`, a group's events in that of their indices, one after another, with the equations

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/integration/events/roots.h"
 
@@ -223,7 +224,6 @@ bool Events::count(const Step& step, const std::optional<EventInStep>& event, co
 }
 
 std::string Events::again_and_again() const {
-  constexpr std::size_t named = 4;
   std::vector<std::string> names;
   std::string remedy;
   for (std::size_t k = 0; k < places_.size(); ++k)
@@ -232,10 +232,7 @@ std::string Events::again_and_again() const {
       names.push_back(name.find('"') == std::string::npos ? "the event " + quoted(name) : name);
       if (remedy.empty()) remedy = group(k).remedy();
     }
-  std::string out;
-  for (std::size_t k = 0; k < std::min(named, names.size()); ++k) out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  if (names.size() > named) out += " and " + std::to_string(names.size() - named) + " more";
-  return out + (names.size() > 1 ? ": their" : ": its") + " events come again and again without time passing" +
+  return some_of(names, false) + (names.size() > 1 ? ": their" : ": its") + " events come again and again without time passing" +
          (remedy.empty() ? "" : "; " + remedy);
 }
 
@@ -257,8 +254,7 @@ void Events::forget_wishes() {
 }
 
 const char* Events::fault() const {
-  if (to_.size() != places_.size() || spent_.size() != places_.size() || crowded_.size() != places_.size())
-    return "it is of another system, or has numbers that are none";
+  if (to_.size() != places_.size() || spent_.size() != places_.size() || crowded_.size() != places_.size()) return foreign_modes;
   for (const auto& g : groups_)
     if (const char* fault = g->fault()) return fault;
   return nullptr;

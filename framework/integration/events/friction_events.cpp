@@ -155,7 +155,7 @@ void FrictionEvents::save(Writer& out) const { out.whole(fastest_); }
 void FrictionEvents::load(Reader& in) { in.whole(fastest_); }
 const char* FrictionEvents::fault() const {
   const bool sound = fastest_.size() == dry_.size() && std::ranges::all_of(fastest_, [](double v) { return std::isfinite(v) && v >= 0; });
-  return sound ? nullptr : "it is of another system, or has numbers that are none";
+  return sound ? nullptr : foreign_modes;
 }
 
 void FrictionEvents::start(Step& step) { decide(step.to.state, {}); }

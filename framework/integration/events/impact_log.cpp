@@ -120,7 +120,7 @@ void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& 
 
 const char* ImpactLog::fault() const {
   const std::size_t contacts = system_.contacts.size();
-  if (open_.size() != contacts || loss_at_begin_.size() != contacts) return "it is of another system, or has numbers that are none";
+  if (open_.size() != contacts || loss_at_begin_.size() != contacts) return foreign_modes;
   for (std::size_t c = 0; c < contacts; ++c) {
     const int open = open_[c];
     if (open >= static_cast<int>(impacts_.size()) || open < -1 || (open >= 0 && impacts_[at(open)].contact != static_cast<int>(c)))

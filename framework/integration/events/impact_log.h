@@ -20,8 +20,8 @@ Margin margin_of(const System&, int contact, const State&);
 
 /// A contact, or the pair from whose pieces it comes onto its own, was pressed at the end of the step before.
 bool was_pressed(const System&, int contact, const State& from);
-/// The time over which time-stepping tells the impulse of a contact in a step h as a force. Of an impact, and of what an event leaves of a
-/// step where only rounding is left of forces, it is a whole step's; what goes on presses in a shorter step as it does in others [s].
+/// The time by which time-stepping divides the impulse of a contact in a step h to report a force [s]. It is a whole step for an impact, and
+/// for the rest of a step after an event, where forces are only rounding; for a contact that continues it is h.
 double time_of_force(const System&, int contact, const State& from, double h, double fixed_step);
 
 /// The number of parts of a step to examine for touching: in each the motion is at most a quarter of the smaller piece, at the speeds of

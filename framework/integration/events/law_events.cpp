@@ -186,7 +186,7 @@ const char* LawEvents::fault() const {
   const std::size_t n = exact_.size();
   return sides_.size() == n && sound(size_, n) && sound(lag_, n) && sound(most_, laws_.size()) && last_ >= 0 && at(last_) < laws_.size()
              ? nullptr
-             : "it is of another system, or has numbers that are none";
+             : foreign_modes;
 }
 
 }  // namespace pintle

@@ -72,12 +72,12 @@ State SceneEvents::extrapolated(const Instant& from, double dt) const {
   return next;
 }
 
-// By what the motion starts with.
+// Decided by the motion just after the instant.
 bool SceneEvents::rises(int event, const Instant& from) const {
   return all_of(event, extrapolated(from, guard_ahead)).value > std::max(guard_near, all_of(event, from.state).value);
 }
 
-// What is at zero there is as it is written, in most conditions whatever the state is.
+// At zero a comparison has the value that its sign gives: >= and <= are true, > and < false. Most conditions need no state for this.
 bool SceneEvents::true_at_zero(int event, const State& state) const {
   const auto& when = rules_[at(event)].when;
   const auto equal = std::ranges::count(when, true, &SceneComparison::at_zero);
@@ -86,7 +86,7 @@ bool SceneEvents::true_at_zero(int event, const State& state) const {
 
 bool SceneEvents::on_zero(int event, const State& state) const { return std::abs(all_of(event, state).value) <= guard_near; }
 
-// At this end of the step, in the part of it that is next to that, and where the motion would lead from there: not in passing.
+// The guard is zero at this end of the step, in the part of the step next to it and where the motion leads: it is not just passing zero.
 bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion, bool at_end) const {
   constexpr double part = 0.125, ahead = 1e-3;
   const double beside = at_end ? step.to.state.t - part * step.h : step.from.state.t + part * step.h;
@@ -94,7 +94,7 @@ bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion,
          on_zero(event, extrapolated(at_end ? step.to : step.from, std::max(guard_ahead, ahead * step.h)));
 }
 
-// What stands at zero is true or false there as it is written: so the zero to be passed moves to the side from which it has come.
+// A condition that stays at zero is true or false there as its comparison says. The zero to be passed is moved to the side from which it came.
 void SceneEvents::decide_at_zero(int event, const Step& step, const DenseOutput& motion, Guard& from, Guard& to) {
   if (waits_[at(event)] == Waits::no_more || !(step.h > 0)) return;
   double& shift = shift_[at(event)];
@@ -247,7 +247,7 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
     const double now = all_of(other, step.to.state).value;
     const double before = step.h > 0 ? all_of(other, step.from.state).value : now;
     if (!(std::abs(now) <= 4 * guard_near && before - now > guard_near)) continue;
-    if (true_at_zero(other, step.to.state) && on_zero(other, extrapolated(step.to, guard_ahead))) continue;  // it comes to stand there
+    if (true_at_zero(other, step.to.state) && on_zero(other, extrapolated(step.to, guard_ahead))) continue;  // it stays at zero
     if (rules_[at(other)].otherwise.empty())
       waits_[at(other)] = Waits::for_true, shift_[at(other)] = -2 * guard_near;
     else
@@ -373,7 +373,7 @@ const char* SceneEvents::fault() const {
                      shift_.size() == rules_.size() && std::ranges::all_of(waits_, [](Waits w) { return w <= Waits::no_more; }) &&
                      std::ranges::all_of(size_, [](double x) { return std::isfinite(x) && x >= 0; }) &&
                      std::ranges::all_of(shift_, [](double x) { return std::isfinite(x); });
-  return sound ? nullptr : "it is of another system, or has numbers that are none";
+  return sound ? nullptr : foreign_modes;
 }
 
 }  // namespace pintle

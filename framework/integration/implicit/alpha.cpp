@@ -176,7 +176,7 @@ bool Alpha::refactor(const System& system, const Weights& w, const Instant& node
 }
 
 // Largest entry of the last correction relative to the error that Newton may leave.
-double Alpha::judge(const System& system, const Weights& w, const State& state) const {
+double Alpha::correction_size(const System& system, const Weights& w, const State& state) const {
   constexpr double rounding = 2e-15;
   const double enough = well_below * tolerance_;
   const Index n = unit_.size();
@@ -188,6 +188,36 @@ double Alpha::judge(const System& system, const Weights& w, const State& state) 
     worst = worse(worse(worst, std::abs(w.q * dv_[i] + dp_[i]) / of_q), std::abs(w.s * dv_[i]) / of_s);
   }
   return worst;
+}
+
+// Largest relative violation of the constraints, in position beyond rounding, in velocity and in sliding.
+double Alpha::constraint_violation(const System& system, const State& state, const Equations& eq) const {
+  const VectorXd& y = state.y;
+  const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
+  const double now = fastest_rate(system, y), pace = std::max(now, largest(s_base_.head(system.n()).cwiseQuotient(system.scale)));
+  const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, state, eq)) * now / pace;  // also at rest
+  return worse(left, drift);
+}
+
+// One correction of v̇₁, λ₁ and p with the factored matrix. @returns false if friction in joints has no solution
+bool Alpha::correct(const System& system, const Weights& w, Instant& to, Equations& eq) {
+  dv_ = eq.f;
+  work_.setZero();
+  add_mass_times(system, eq, eq.a, work_);
+  add_reaction(eq, eq.lambda, work_);
+  dv_ -= work_;
+  mu_ = eq.Cdot * (-1 / w.s);
+  solve(dv_, mu_);
+  to.memory.lambda += mu_;
+  if (!correct_friction(system, w.s, to.state, to.memory, eq)) return false;
+  to.dy.segment(system.n(), system.n()) += dv_;
+  dp_.setZero();
+  if (system.n_rows() > 0) {
+    mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // without the effect of δv̇ on C
+    solve(dp_, mu_);
+    p_ += dp_;
+  }
+  return true;
 }
 
 // Newton's iteration for v̇₁, λ₁ and p. The unknowns are accelerations, so the matrix is M + w.s D + w.q K, whose non-stiff part does not
@@ -205,10 +235,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     if (system.n_x() > 0) follow_internal_states(system, eq, to.state, w.s, s_base_.data() + n, y.data() + system.x_begin());
     balance(system, to.state, to.dy, to.memory.lambda, eq);
     if (enough) {
-      const double left = position_violation(system, eq) - std::min(8 * angle_rounding(system, y), still_near);
-      const double now = fastest_rate(system, y), pace = std::max(now, largest(s_base_.head(n).cwiseQuotient(system.scale)));
-      const double drift = worse(velocity_violation(system, y, eq), slip_violation(system, to.state, eq)) * now / pace;  // also at rest
-      if (worse(left, drift) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
+      if (constraint_violation(system, to.state, eq) <= (i > most_iterations / 2 ? nearly : on_constraints)) {
         tired_ = tired_ || i > many_iterations || rate_ > slow;
         return true;
       }
@@ -219,25 +246,9 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
       fresh = true;
     }
     if (i == 0) border(system, eq);
-    dv_ = eq.f;
-    work_.setZero();
-    add_mass_times(system, eq, eq.a, work_);
-    add_reaction(eq, eq.lambda, work_);
-    dv_ -= work_;
-    mu_ = eq.Cdot * (-1 / w.s);
-    solve(dv_, mu_);
-    to.memory.lambda += mu_;
-    if (!correct_friction(system, w.s, to.state, to.memory, eq))
-      return blame(system, eq, "the friction force in the joints cannot be found");
-    v += dv_;
-    dp_.setZero();
-    if (system.n_rows() > 0) {
-      mu_ = (w.q / w.s) * eq.Cdot - eq.C;  // without the effect of δv̇ on C
-      solve(dp_, mu_);
-      p_ += dp_;
-    }
+    if (!correct(system, w, to, eq)) return blame(system, eq, "the friction force in the joints cannot be found");
     ++iterations_;
-    const double size = judge(system, w, to.state);
+    const double size = correction_size(system, w, to.state);
     if (!std::isfinite(size)) return blame(system, eq, "Newton's iteration exceeds the range of a double");
     if (i > 0 && size > 1) {
       rate_ = size / before;
@@ -314,9 +325,9 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
   for (Index i = system.z_begin(); i < system.n_y(); ++i) to.state.y[i] = from.state.y[i] + h / 2 * (from.dy[i] + to.dy[i]);
 }
 
-// e ← the solution of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. Of an oscillation with hω ≫ 1, one application keeps the displacement,
-// which counts if it is above the tolerance. Of its speed, which the scheme damps, one application would leave so much that the step would
-// be reduced until it resolves the oscillation permanently: speeds are filtered twice.
+// e ← the solution x of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. For an oscillation with hω ≫ 1, one application keeps the displacement,
+// which counts if it is above the tolerance. The scheme damps the speed of the oscillation; one application would leave so much of it that
+// the steps would resolve the oscillation permanently. Therefore speeds are filtered twice.
 void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equations& eq) {
   work_ = e;
   for (int i = 0; i < times; ++i) {

@@ -84,7 +84,9 @@ class Alpha {
   double slip_violation(const System&, const State&, const Equations&) const;
   void keep_slip(const System&, const Equations&, const Eigen::VectorXd& slips, Eigen::VectorXd& x) const;
   void share_out_friction(const System&, Instant& to, Equations&);
-  double judge(const System&, const Weights&, const State&) const;
+  bool correct(const System&, const Weights&, Instant& to, Equations&);
+  double correction_size(const System&, const Weights&, const State&) const;
+  double constraint_violation(const System&, const State&, const Equations&) const;
   void forces_of(const System&, const Equations&, Memory&);
   void share_out(const System&, Instant& to, Equations&);
   void remember(const System&, double h, const Instant& from, Instant& to, Equations&);

@@ -43,7 +43,7 @@ bool MoreauJean::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   const Index n = system_.n();
   const State& from = step.from.state;
   step.h = h;
-  trouble_ = "singular pose, which steps of one length do not pass; take method: auto, or start or drive the mechanism elsewhere";
+  trouble_ = "singular configuration, which steps of one length do not pass; take method: auto, or start or drive the mechanism elsewhere";
   step.error.setZero(system_.n_y());
   middle_ = from;
   middle_.t = from.t + h / 2;

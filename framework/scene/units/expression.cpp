@@ -13,7 +13,7 @@ namespace pintle {
 namespace {
 
 [[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary) {
-  if (is_function(name)) throw ExpressionError("the function " + name + " needs its parentheses");
+  if (is_function(name)) throw ExpressionError("the function " + name + " needs parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
   std::vector<std::string> known{std::string(vocabulary.variable), "pi"}, all;  // names to list in messages; and also units and signals
@@ -32,23 +32,22 @@ namespace {
 }
 
 constexpr std::string_view set_by_an_event =
-    " is a parameter that an event sets, and this value is made once, before the run; laws of forces and springs, rates, outputs and "
-    "conditions may "
-    "follow it: write such a law here, or take another parameter";
+    " is a parameter that an event sets, but this value is evaluated once, before the run; laws of forces and springs, rates, outputs and "
+    "conditions may depend on it: write such a law here, or use another parameter";
 
 int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formula& formula);
 
-// What a name stands for, as a part of the formula.
+// The expression that a name stands for, as a part of the formula.
 int part_of(const Word& word, const std::string& stands_for, const Vocabulary& known, Formula& formula) {
   constexpr int most_within = 30;
   Vocabulary within = known;
   if (++within.within > most_within)
-    throw ExpressionError(word.text + " would follow from itself: let what it follows from name states or signals in its place");
+    throw ExpressionError(word.text + " would depend on itself: in the expressions it depends on, name states or signals instead");
   const std::vector<Word> words = spell(stands_for, within);
   return build(parse(words), within, formula);
 }
 
-// The text with the expressions that names stand for in their place, so that it can be read where these names are not known.
+// The text with such names replaced by their expressions, so that it can be read where the names are unknown.
 std::string written_out(std::string_view text, const std::vector<Word>& words, const Vocabulary& known) {
   std::string out;
   const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
@@ -119,7 +118,7 @@ int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formul
   return results.back();
 }
 
-std::string quoted(std::string_view text) {
+std::string excerpt(std::string_view text) {
   constexpr std::size_t shown = 60;
   const bool cut = text.size() > shown;
   return std::string("\"").append(text.substr(0, shown)).append(cut ? "…\"" : "\"");
@@ -127,7 +126,7 @@ std::string quoted(std::string_view text) {
 
 [[noreturn]] void refuse(std::string_view text, const ExpressionError& error) {
   const std::string place = error.at > 0 ? ", character " + std::to_string(error.at) : "";
-  throw ExpressionError(quoted(text) + place + ": " + error.what());
+  throw ExpressionError(excerpt(text) + place + ": " + error.what());
 }
 
 bool fits(const Quantity& q, const Dimension& expected) { return bare(q.dimension) || same(q.dimension, expected); }
@@ -182,15 +181,16 @@ Quantity read_quantity(std::string_view text, const Parameters& parameters) { re
 double read_quantity(std::string_view text, const Dimension& expected, const Parameters& parameters) {
   const Quantity q = read_quantity(text, parameters);
   if (fits(q, expected)) return q.value;
-  throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected " + describe(expected));
+  throw ExpressionError(excerpt(text) + " is " + describe(q.dimension) + "; expected " + describe(expected));
 }
 
 double read_frequency(std::string_view text, const Parameters& parameters) {
   const Quantity q = evaluated(text, {parameters, frequency_units()});
   if (bare(q.dimension)) return q.value;
   if (!same(q.dimension, dimension::angular_speed))
-    throw ExpressionError(quoted(text) + " is " + describe(q.dimension) + "; expected a frequency [Hz]");
-  if (q.dimension.angle != 1) throw ExpressionError(quoted(text) + " does not say whether turns or radians are counted; write Hz or rad/s");
+    throw ExpressionError(excerpt(text) + " is " + describe(q.dimension) + "; expected a frequency [Hz]");
+  if (q.dimension.angle != 1)
+    throw ExpressionError(excerpt(text) + " does not say whether turns or radians are counted; write Hz or rad/s");
   return q.value / (2 * std::numbers::pi);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "framework/common/text.h"
 #include "framework/scene/units/jet.h"
 #include "framework/scene/units/program_parts.h"
 
@@ -53,6 +54,11 @@ double product_to_the_bit(double a, double b) {
 }
 
 }  // namespace
+
+std::string exact_text(double value, const Dimension& d) {
+  const std::string unit = si_unit(d);
+  return "(" + number_exactly(value) + (unit.empty() ? ")" : " " + unit + ")");
+}
 
 Jet Program::operator()(const Jet& t, const Jet* inputs) const {
   std::array<Jet, most_stacked> stack;

@@ -21,6 +21,9 @@ struct Quantity {
   Dimension dimension = {};
   bool varies = false;  ///< of a parameter that an event sets: this is what it starts with
 };
+/// As an expression, to the last bit: "(0.1 m)".
+std::string exact_text(double value, const Dimension&);
+inline std::string exact_text(const Quantity& q) { return exact_text(q.value, q.dimension); }
 
 enum class Op : unsigned char {
   constant,

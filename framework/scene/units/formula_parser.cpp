@@ -77,7 +77,7 @@ const Function& function(const Word& w) {
 // Fails at a word that cannot begin an operand.
 [[noreturn]] void misplaced(const Word& w) {
   const std::string what = w.kind == Kind::comma ? "a comma" : w.kind == Kind::close ? "a parenthesis" : "the operator " + w.text;
-  fail(w, what + " stands where a value should");
+  fail(w, what + " is where a value should be");
 }
 
 [[noreturn]] void miscounted(const Word& name, const Function& f, int given) {
@@ -91,12 +91,12 @@ class Parser {
 
   std::vector<FormulaStep> steps() {
     expression(weakest);
-    if (!at_end()) fail(next(), next().text + " stands where it should end");
+    if (!at_end()) fail(next(), "it should end before " + next().text);
     return std::move(steps_);
   }
 
  private:
-  // Limit of nesting, so that no text, however hostile, overflows the stack.
+  // Limit of nesting, so that no text overflows the stack.
   static constexpr int deepest = 250;
 
   bool at_end() const { return place_ == words_.size(); }
@@ -150,7 +150,7 @@ class Parser {
 
   void call(const Word& name) {
     const Function& f = function(name);
-    if (!next_is(Kind::open)) fail(name, "the function " + name.text + " needs its parentheses");
+    if (!next_is(Kind::open)) fail(name, "the function " + name.text + " needs parentheses");
     const Word& open = take();
     int given = 0;
     for (bool more = !next_is(Kind::close); more; more = take_if(Kind::comma)) {
@@ -163,7 +163,7 @@ class Parser {
   }
 
   void close(const Word& open) {
-    if (next_is(Kind::comma)) fail(next(), "a comma stands outside a function: the decimal point is \".\"");
+    if (next_is(Kind::comma)) fail(next(), "a comma is outside a function: the decimal point is \".\"");
     if (!take_if(Kind::close)) fail(open, "a parenthesis is not closed");
   }
 

@@ -31,9 +31,9 @@ void split(const Program& program, std::size_t last, std::vector<Comparison>& ou
   const std::size_t begin = begin_of(program, last);
   const bool falls = op == Op::less || op == Op::at_most, rises = op == Op::greater || op == Op::at_least;
   if (op == Op::equal || op == Op::unequal)
-    throw ExpressionError("an event comes where something passes a value, not where it equals one" + std::string(how_to_write_one));
-  if (op == Op::either) throw ExpressionError("conditions joined by || are events of their own; write two");
-  if (op != Op::both && !falls && !rises) throw ExpressionError("it is no condition" + std::string(how_to_write_one));
+    throw ExpressionError("an event occurs when something passes a value, not while it equals one" + std::string(how_to_write_one));
+  if (op == Op::either) throw ExpressionError("conditions joined by || are separate events; write two");
+  if (op != Op::both && !falls && !rises) throw ExpressionError("it is not a condition" + std::string(how_to_write_one));
   const std::size_t second = begin_of(program, last - 1);
   if (op == Op::both) {
     split(program, second - 1, out);

@@ -17,7 +17,7 @@ class SidedProgram {
   int switches() const { return switches_; }
   /// The sides that are held, and the output: the sides found, and the distance of each from its end; nullptr: not wanted.
   struct Sides {
-    const int* held = nullptr;  ///< nullptr: each is determined anew
+    const int* held = nullptr;  ///< nullptr: each is determined again
     int* found = nullptr;
     double* left = nullptr;
   };

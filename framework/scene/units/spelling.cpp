@@ -101,7 +101,9 @@ class Speller {
     const Kind k = words_.back().kind;
     return k == Kind::number || k == Kind::name || k == Kind::signal || k == Kind::close;
   }
-  std::string between(std::string_view next) const { return "nothing stands between " + words_.back().text + " and " + std::string(next); }
+  std::string between(std::string_view next) const {
+    return "there is no operator between " + words_.back().text + " and " + std::string(next);
+  }
   [[noreturn]] void side_by_side(std::string_view next) const {
     const std::string last = words_.back().text;
     fail(between(next) + ": write " + (last == ")" ? "" : last) + "*" + std::string(next));
@@ -118,12 +120,12 @@ class Speller {
     take(Kind::open, 1);
   }
   void close() {
-    if (levels_.size() == 1) fail("a parenthesis closes that was not opened");
+    if (levels_.size() == 1) fail("a parenthesis is closed but was not opened");
     levels_.pop_back();
     take(Kind::close, 1);
   }
   void comma() {
-    if (levels_.size() == 1) fail("a comma stands outside a function: the decimal point is \".\"");
+    if (levels_.size() == 1) fail("a comma is outside a function: the decimal point is \".\"");
     levels_.back().divided = false;
     take(Kind::comma, 1);
   }
@@ -134,7 +136,7 @@ class Speller {
   const Vocabulary& known_;
   std::vector<Word> words_;
   std::vector<Level> levels_{Level{}};
-  const std::string hint_ = "; inside { } or [ ] an expression with commas must stand in quotes";
+  const std::string hint_ = "; inside { } or [ ] an expression with commas must be in quotes";
 };
 
 void Speller::number() {
@@ -165,7 +167,7 @@ bool Speller::signal() {
   return false;
 }
 
-/// What stands behind the owner's dot, and behind no other.
+/// The names behind the owner's dot that have no further dot.
 std::vector<std::string> columns_of(const std::vector<std::string>& signals, const std::string& owner) {
   std::vector<std::string> out;
   for (const std::string& signal : signals)
@@ -173,14 +175,14 @@ std::vector<std::string> columns_of(const std::vector<std::string>& signals, con
   return out;
 }
 
-/// What an owner has in place of a column that it has not. Where that is one of joints with clearance, and this joint has none, that is said:
-/// it may have been deleted.
-/// @param columns  those that this expression may name   @param joint  it has an angle and a reaction
+/// Suggests a column of the owner instead of one that it lacks. If only joints with clearance have it and this joint has none, the hint says so:
+/// the clearance may have been deleted.
+/// @param columns  columns that this expression may name   @param joint  the owner has an angle and a reaction
 std::string hint_of(const std::string& owner, const std::string& column, const std::vector<std::string>& columns, bool joint) {
   static const std::vector<std::string> worn{"normal", "depth", "ex", "ey", "rate", "friction", "sliding"};
   const std::string name = "\"" + owner.substr(0, owner.size() - 1) + "\"", known = listed(columns, "and");
   if (joint && std::ranges::find(worn, column) != worn.end())
-    return " " + name + " is an ideal joint, and has " + known + "; only joints with clearance" +
+    return " " + name + " is an ideal joint and has " + known + "; only joints with clearance" +
            (column == "friction" || column == "sliding" ? " or friction" : "") + " have " + column +
            (column == "normal" ? ". The size of its force is sqrt(" + owner + "fx^2 + " + owner + "fy^2)" : "");
   const std::string near = nearest(column, columns);
@@ -247,7 +249,7 @@ void Speller::sign() {
     if (rest_.starts_with(s) && s.size() > length) length = s.size();
   const std::string_view s = rest_.substr(0, length);
   if (s == "**") fail("a power is written ^");
-  if (s == "=") fail("= is no operator: write == to compare");
+  if (s == "=") fail("= is not an operator: write == to compare");
   if (length == 0) {
     const bool condition = rest_.front() == '?' || rest_.front() == ':';
     if (condition) fail("a choice is written if(condition, a, b)");

@@ -66,7 +66,7 @@ class SampleReader {
     if (words.size() != 2) fail("holds " + std::to_string(words.size()) + " columns; write two: " + first_ + " and value");
     const double t = finite(words[0], 1) * time_unit, value = finite(words[1], 2) * value_unit;
     if (rising_ && !samples_.t.empty() && !(t > samples_.t.back()))
-      fail(first_ + " " + std::string(words[0]) + " does not come after the one before; " + first_ + "s must increase");
+      fail(first_ + " " + std::string(words[0]) + " is not greater than the one before; " + first_ + "s must increase");
     samples_.t.push_back(t);
     samples_.value.push_back(value);
   }
@@ -193,7 +193,6 @@ class GridReader {
   }
 
  private:
-  static std::string counted(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
   [[noreturn]] void fail(const std::string& message) const { throw SceneError(file_, {line_, key_}, message); }
 
   void first(const std::vector<std::string_view>& words) {
@@ -215,7 +214,7 @@ class GridReader {
   void append(std::vector<double>& to, std::string_view word, double unit, const std::string& name) const {
     const double x = finite(word) * unit;
     if (!to.empty() && !(x > to.back()))
-      fail(name + " " + std::string(word) + " does not come after the one before; numbers of " + name + " must increase");
+      fail(name + " " + std::string(word) + " is not greater than the one before; numbers of " + name + " must increase");
     to.push_back(x);
   }
 

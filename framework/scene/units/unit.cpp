@@ -43,31 +43,32 @@ struct AbsentWord {
   std::string_view name, remedy;
 };
 constexpr const char* write_ohm = "resistances are written in Ohm, mOhm, kOhm or MOhm";
-constexpr std::array absent_words{AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s, 3000 rpm or 50/s, as you mean it"},
-                                  AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s or 1000/s, as you mean it"},
-                                  AbsentWord{"min", "minutes are not offered: write 60 s"},
-                                  AbsentWord{"inch", "inches are not offered: write 25.4 mm"},
-                                  AbsentWord{"in", "inches are not offered: write 25.4 mm"},
-                                  AbsentWord{"ft", "feet are not offered: write 0.3048 m"},
-                                  AbsentWord{"lb", "pounds are not offered: write 0.45359237 kg"},
-                                  AbsentWord{"lbf", "pounds are not offered: write 4.4482216 N"},
-                                  AbsentWord{"psi", "pounds are not offered: write 6894.7573 Pa"},
-                                  AbsentWord{"ton", "write 1000 kg"},
-                                  AbsentWord{"ohm", write_ohm},
-                                  AbsentWord{"kohm", write_ohm},
-                                  AbsentWord{"Ah", "write 3600 C, or 1 A*(3600 s)"},
-                                  AbsentWord{"Nm", "a product of units is written with a space: N m"},
-                                  AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
-                                  AbsentWord{"kNm", "a product of units is written with a space: kN m"},
-                                  AbsentWord{"Ns", "a product of units is written with a space: N s"},
-                                  AbsentWord{"kgm", "a product of units is written with a space: kg m"},
-                                  AbsentWord{"inf", "every value must be finite"},
-                                  AbsentWord{"Inf", "every value must be finite"},
-                                  AbsentWord{"infinity", "every value must be finite"},
-                                  AbsentWord{"nan", "every value must be finite"},
-                                  AbsentWord{"NaN", "every value must be finite"},
-                                  AbsentWord{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
-                                  AbsentWord{"ln", "the natural logarithm is log"}};
+constexpr std::array absent_words{
+    AbsentWord{"Hz", "Hz counts turns, not radians: write 50*rev/s or 3000 rpm if turns are meant, otherwise 50/s"},
+    AbsentWord{"kHz", "Hz counts turns, not radians: write 1000*rev/s if turns are meant, otherwise 1000/s"},
+    AbsentWord{"min", "minutes are not supported: write 60 s"},
+    AbsentWord{"inch", "inches are not supported: write 25.4 mm"},
+    AbsentWord{"in", "inches are not supported: write 25.4 mm"},
+    AbsentWord{"ft", "feet are not supported: write 0.3048 m"},
+    AbsentWord{"lb", "pounds are not supported: write 0.45359237 kg"},
+    AbsentWord{"lbf", "pounds are not supported: write 4.4482216 N"},
+    AbsentWord{"psi", "pounds are not supported: write 6894.7573 Pa"},
+    AbsentWord{"ton", "write 1000 kg"},
+    AbsentWord{"ohm", write_ohm},
+    AbsentWord{"kohm", write_ohm},
+    AbsentWord{"Ah", "write 3600 C, or 1 A*(3600 s)"},
+    AbsentWord{"Nm", "a product of units is written with a space: N m"},
+    AbsentWord{"Nmm", "a product of units is written with a space: N mm"},
+    AbsentWord{"kNm", "a product of units is written with a space: kN m"},
+    AbsentWord{"Ns", "a product of units is written with a space: N s"},
+    AbsentWord{"kgm", "a product of units is written with a space: kg m"},
+    AbsentWord{"inf", "every value must be finite"},
+    AbsentWord{"Inf", "every value must be finite"},
+    AbsentWord{"infinity", "every value must be finite"},
+    AbsentWord{"nan", "every value must be finite"},
+    AbsentWord{"NaN", "every value must be finite"},
+    AbsentWord{"e", "Euler's number is exp(1); a power of ten is written 1e-3"},
+    AbsentWord{"ln", "the natural logarithm is log"}};
 
 struct Named {
   Dimension dimension;
@@ -180,7 +181,7 @@ std::string no_unit(const std::string& word) {
   std::vector<std::string> known;
   for (const Unit& u : known_units) known.emplace_back(u.name);
   const std::string best = nearest(word, known);
-  std::string out = word + " is no unit here";
+  std::string out = word + " is not a unit here";
   if (const std::string_view remedy = instead_of(word); !remedy.empty())
     out.append(": ").append(remedy);
   else if (!best.empty())

@@ -48,7 +48,7 @@ std::span<const Unit> frequency_units();
 /// What to write instead of a unit, constant or function that users may try but that is intentionally absent ("Hz", "Nm", "e", "ln"); empty
 /// for any other word.
 std::string_view instead_of(std::string_view word);
-/// "lb is no unit here: write 0.45359237 kg. Units: m, km, …".
+/// "lb is not a unit here: write 0.45359237 kg. Units: m, km, …".
 std::string no_unit(const std::string& word);
 
 }  // namespace pintle

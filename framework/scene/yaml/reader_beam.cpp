@@ -27,7 +27,7 @@ ISection read_i(const Node& node, const std::string& keys) {
                         ": the flanges must be wider than the web");
   if (2 * s.flange >= s.height)
     node.at("flange").fail(node.at("flange").shown() + " times two must be less than the height " + node.at("height").shown() +
-                           ": the web stands between the flanges");
+                           ": the web is between the flanges");
   return s;
 }
 

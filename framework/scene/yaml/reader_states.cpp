@@ -30,15 +30,6 @@ Quantity quantity_of(const Node& node, const std::string& remedy) {
   }
 }
 
-// As an expression writes it, to the last bit.
-std::string exact_text(double value, const Dimension& d) {
-  std::string out = "(";
-  append_number(out, value);
-  const std::string unit = si_unit(d);
-  return out + (unit.empty() ? ")" : " " + unit + ")");
-}
-std::string exact_text(const Quantity& q) { return exact_text(q.value, q.dimension); }
-
 // What a state of a kind is made of, in words of expressions.
 struct StateOfKind {
   std::string name, rate;
@@ -128,8 +119,7 @@ MadeOfStates pid_of(const Node& node, const Dimension& d) {
   if (k.integral.value != 0) terms.push_back(integral);
   if (k.derivative.value != 0) {
     if (!node.has("filter"))
-      node.fail(
-          "takes a rate of change, which needs a filter (a pure derivative would need what is yet to come); add for example filter: 2 ms");
+      node.fail("takes a rate of change, which needs a filter (a pure derivative would need future values); add for example filter: 2 ms");
     const double time = node.at("filter").quantity(dimension::time, rule::positive);
     const std::string part =
         exact_text({k.derivative.value / time, product(k.derivative.dimension, dimension::rate)}) + "*" + e + " - " + filter;

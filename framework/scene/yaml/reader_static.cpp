@@ -2,6 +2,7 @@
 #include <array>
 
 #include "framework/common/nearest.h"
+#include "framework/common/some_of.h"
 #include "framework/scene/yaml/reader_parts.h"
 
 namespace pintle {
@@ -37,7 +38,7 @@ const SceneBody& body_of(const Node& node, const Scene& scene) {
   for (const SceneBody& b : scene.bodies)
     if (b.elastic) elastic.push_back(b.name);
   if (elastic.empty()) node.fail("needs a flexible body, but all are rigid; give one a beam or a plate");
-  if (elastic.size() > 1) node.fail("does not say which body is loaded; add body: " + listed(elastic));
+  if (elastic.size() > 1) node.fail("does not say which body is loaded; add body: one of " + some_of(elastic, false));
   return elastic_named(node, elastic.front(), scene);
 }
 

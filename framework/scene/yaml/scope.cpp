@@ -13,13 +13,6 @@ namespace {
 bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool within_name(char c) { return begins_name(c) || (c >= '0' && c <= '9'); }
 
-std::string with_unit(const Quantity& q) {
-  std::string out = "(";
-  append_number(out, q.value);
-  const std::string unit = si_unit(q.dimension);
-  return out + (unit.empty() ? ")" : " " + unit + ")");
-}
-
 // The length of the number or name that begins here; otherwise 1.
 std::size_t word_length(std::string_view rest) {
   if (begins_name(rest.front())) return static_cast<std::size_t>(std::ranges::find_if_not(rest, within_name) - rest.begin());
@@ -101,7 +94,7 @@ SpelledOut spelled_out(const std::string& expression, const Source& source, int 
       out.text += named.part + (named.point.empty() ? "" : "." + named.point);
       out.names_parts = true;
     } else if (begins && own.own.contains(std::string(word))) {
-      out.text += with_unit(own.parameters.find(word)->second);
+      out.text += exact_text(own.parameters.find(word)->second);
     } else {
       out.text += word;
     }

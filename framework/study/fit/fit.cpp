@@ -63,7 +63,7 @@ class Evaluations {
   bool stopped() const { return stopped_; }
 
   /// Collects the results of a range of numbers.
-  void take(std::size_t first, std::size_t count, const std::string& phase, std::vector<Trying>& out) const {
+  void take(std::size_t first, std::size_t count, const std::string& phase, std::vector<FitCase>& out) const {
     for (std::size_t k = first; k < first + count; ++k)
       if (rows_[k].number > 0) out.push_back({phase, rows_[k], worths_[k]});
   }
@@ -220,7 +220,7 @@ std::vector<Tried> chosen_starts(const FitPlan& plan, const std::vector<Tried>& 
 }
 
 /// The best result of these phases.
-std::optional<std::size_t> best_of(const std::vector<Trying>& tried, const std::string& phase = "") {
+std::optional<std::size_t> best_of(const std::vector<FitCase>& tried, const std::string& phase = "") {
   std::optional<std::size_t> out;
   for (std::size_t k = 0; k < tried.size(); ++k)
     if ((phase.empty() || tried[k].phase == phase) && tried[k].worth.known && (!out || better(tried[k].worth, tried[*out].worth))) out = k;

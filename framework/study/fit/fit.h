@@ -40,7 +40,7 @@ struct FitPlan {
 FitPlan read_fit(const std::filesystem::path&, const Overrides& set = {});
 
 /// A case that was evaluated.
-struct Trying {
+struct FitCase {
   std::string phase;  ///< "first points", "start 2", "last search"
   Row row;            ///< its values: those of the variables (SI), then of the measures
   Worth worth;
@@ -50,7 +50,7 @@ struct FitEnd {
   bool stopped = false;
   std::size_t workers = 1;
   std::vector<std::string> notes;
-  std::vector<Trying> tried;                        ///< in an order independent of the worker threads
+  std::vector<FitCase> tried;                       ///< in an order independent of the worker threads
   std::optional<std::size_t> best;                  ///< index into these
   std::vector<std::string> ends;                    ///< of each search, the reason for its end
   std::vector<std::optional<std::size_t>> best_of;  ///< of each search
@@ -71,8 +71,8 @@ struct FitSettings {
 FitEnd run_fit(const FitPlan&, const std::filesystem::path& folder, const FitSettings&);
 
 /// Values of an evaluated case: of a variable, of the measures.
-double variable_value(const Trying&, std::size_t variable);
-std::vector<double> measured_values(const FitPlan&, const Trying&);
+double variable_value(const FitCase&, std::size_t variable);
+std::vector<double> measured_values(const FitPlan&, const FitCase&);
 /// The best point as overrides of the scene. @pre it exists
 Overrides best_point(const FitPlan&, const FitEnd&);
 /// Headers with units.

@@ -20,7 +20,7 @@ Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 /// The unit, from a case that has it.
 std::string unit_of_measure(const FitEnd& end, std::size_t m) {
-  for (const Trying& t : end.tried)
+  for (const FitCase& t : end.tried)
     if (m < t.row.units.size() && !t.row.units[m].empty()) return t.row.units[m];
   return "";
 }
@@ -33,7 +33,7 @@ bool at_an_end(const Variable& v, double x) {
 
 Json best_json(const FitPlan& plan, const FitEnd& end) {
   if (!end.best) return nullptr;
-  const Trying& t = end.tried[*end.best];
+  const FitCase& t = end.tried[*end.best];
   Json variables = Json::object(), measures = Json::object();
   for (std::size_t j = 0; j < plan.variables.size(); ++j)
     variables[variable_header(plan.variables[j])] = {{"value", variable_value(t, j)},
@@ -51,9 +51,9 @@ Json best_json(const FitPlan& plan, const FitEnd& end) {
 
 }  // namespace
 
-double variable_value(const Trying& t, std::size_t variable) { return t.row.values[variable]; }
+double variable_value(const FitCase& t, std::size_t variable) { return t.row.values[variable]; }
 
-std::vector<double> measured_values(const FitPlan& plan, const Trying& t) {
+std::vector<double> measured_values(const FitPlan& plan, const FitCase& t) {
   return {t.row.values.begin() + static_cast<std::ptrdiff_t>(plan.variables.size()), t.row.values.end()};
 }
 
@@ -76,7 +76,7 @@ std::string measured_header(const FitPlan& plan, const FitEnd& end, std::size_t 
 
 bool FitEnd::meets(const FitPlan& plan) const {
   if (!best) return false;
-  const Trying& t = tried[*best];
+  const FitCase& t = tried[*best];
   return t.worth.worst() <= met_within && (!plan.goal.exact || plan.goal.reached(measured_values(plan, t)));
 }
 
@@ -98,7 +98,7 @@ std::string fit_csv(const FitPlan& plan, const FitEnd& end) {
   for (const Variable& v : plan.variables) out += "," + csv_field(variable_header(v));
   for (std::size_t m = 0; m < plan.base.study.measures.size(); ++m) out += "," + csv_field(measured_header(plan, end, m));
   out += ",goal,worst excess,status,reason\n";
-  for (const Trying& t : end.tried) {
+  for (const FitCase& t : end.tried) {
     out += std::to_string(t.row.number) + "," + t.phase;
     for (const double x : t.row.values) out += ',', append_number(out, x);
     out += ',';
@@ -112,7 +112,7 @@ std::string fit_csv(const FitPlan& plan, const FitEnd& end) {
 
 std::string fit_json(const FitPlan& plan, const FitEnd& end) {
   std::map<std::string, std::size_t> by_status;
-  for (const Trying& t : end.tried) ++by_status[t.row.status];
+  for (const FitCase& t : end.tried) ++by_status[t.row.status];
   Json spans = Json::object(), searches = Json::array(), methods = Json::array();
   for (const Variable& v : plan.variables) spans[variable_header(v)] = {v.span.span.from, v.span.span.to};
   for (std::size_t s = 0; s < end.ends.size(); ++s)
@@ -136,7 +136,7 @@ std::string fit_json(const FitPlan& plan, const FitEnd& end) {
 }
 
 std::string fitted_scene(const FitPlan& plan, const FitEnd& end, const std::filesystem::path& folder) {
-  const Trying& t = end.tried[*end.best];
+  const FitCase& t = end.tried[*end.best];
   std::string comment = "Fitted by pintle fit " + plan.base.study.file;
   const std::vector<double> values = measured_values(plan, t);
   for (std::size_t m = 0; m < values.size(); ++m) comment += "\n  " + measured_header(plan, end, m) + ": " + number_text(values[m], 9);

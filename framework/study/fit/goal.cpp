@@ -39,7 +39,7 @@ struct GoalReader {
     return names.empty() ? "; name measures under measure" : "; there are " + listed(names, "and");
   }
   std::size_t add(const Measure& m) const {
-    judge({m}, scene);
+    validate({m}, scene);
     study.measures.push_back(m);
     return study.measures.size() - 1;
   }

@@ -58,7 +58,7 @@ class Searching {
       case NLOPT_FORCED_STOP: return good_ ? "good enough" : "out of evaluations";
       case NLOPT_ROUNDOFF_LIMITED: return "limited by rounding";
       case NLOPT_OUT_OF_MEMORY: throw std::bad_alloc();
-      default: return end > 0 ? "converged" : "could not go on";
+      default: return end > 0 ? "converged" : "could not continue";
     }
   }
 

@@ -40,7 +40,7 @@ std::string measured_unit(const Measure&, const Scene&);
 
 /// Checks the words against a scene before anything runs.
 /// @throws SceneError  as above, or a time is beyond the end of the run
-void judge(const std::vector<Measure>&, const Scene&);
+void validate(const std::vector<Measure>&, const Scene&);
 /// Checks measures that need a flexible body: stress, displacement, modes.
 /// @param varied  parameters and paths set by the cases. One below `bodies.BODY` may make it flexible.
 /// @throws SceneError  the body is rigid, and no case may change that

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "framework/common/nearest.h"
+#include "framework/common/some_of.h"
 #include "framework/scene/error.h"
 #include "framework/scene/units/signal_words.h"
 #include "framework/study/measures/measure.h"
@@ -42,7 +43,7 @@ std::string those_that_bend(const Scene& scene) {
   Names names;
   for (const SceneBody& b : scene.bodies)
     if (bends(b)) names.push_back(b.name);
-  return names.empty() ? "every body of the scene is rigid" : "flexible are " + listed(names, "and");
+  return names.empty() ? "every body of the scene is rigid" : "flexible are " + some_of(names, false);
 }
 
 /// "coil.depth" of a spring, "main.normal" of an ideal joint, which no case can have.
@@ -65,7 +66,7 @@ void refuse_absent_column(const Measure& m, const Asked& asked, const Scene& sce
 
 }  // namespace
 
-void judge(const std::vector<Measure>& measures, const Scene& scene) {
+void validate(const std::vector<Measure>& measures, const Scene& scene) {
   for (const Measure& m : measures) {
     if (of_modes(m.question)) {
       read_mode_measure(m, scene);

@@ -38,8 +38,8 @@ class Reading {
            (formula && !why_not_.empty() ? " As an expression: " + why_not_ + "." : "") + described(measurables_));
     }
     read_time();
-    judge_question();
-    judge();
+    validate_analysis();
+    validate();
     if (asked_.frequency) asked_.unit = "Hz";
     if (asked_.time_of) asked_.unit = "s";
     return asked_;
@@ -52,7 +52,7 @@ class Reading {
       fail("\"" + point + "\" is no point of a body of this scene." + did_you_mean(point, measurables_.points));
     is(What::path, "m", "", point);
     asked_.statistic = Statistic::rms;
-    judge_question();
+    validate_analysis();
     return asked_;
   }
 
@@ -298,7 +298,7 @@ class Reading {
       return t;
     } catch (const ExpressionError& error) {
       fail(std::string(error.what()) +
-           "; a time stands at the end of a measure: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in the last 5 ms");
+           "; a time is written at the end of a measure: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in the last 5 ms");
     }
   }
 
@@ -343,7 +343,7 @@ class Reading {
   }
 
   /// Rejects what the analysis does not provide; statics provides only its single instant.
-  void judge_question() {
+  void validate_analysis() {
     const Analysis analysis = measure_.question.analysis;
     if (analysis == Analysis::run) return;
     const bool motion = asked_.what == What::motion || asked_.what == What::distance || asked_.what == What::path ||
@@ -363,7 +363,7 @@ class Reading {
     asked_.instant = true, asked_.from = asked_.to = measure_.question.at.value_or(0);
   }
 
-  void judge() const {
+  void validate() const {
     const bool events = asked_.what == What::impacts || asked_.what == What::free_flight || asked_.what == What::contact_time;
     if (measure_.question.analysis == Analysis::statics) return;
     if (asked_.instant && (asked_.statistic != Statistic::none || asked_.time_of || asked_.frequency))

@@ -21,7 +21,7 @@ std::size_t real_outside(const Cycle& cycle, double sign) {
   return n;
 }
 
-/// The least distance of a multiplier from where it leaves: of reals from 1 or -1, of pairs from the circle.
+/// The signed distance of the multiplier nearest to its crossing: of real ones from 1 or -1, of pairs from the unit circle.
 double nearest(const Cycle& cycle, Crossing through) {
   std::optional<double> out;
   for (std::size_t j = 0; j < cycle.re.size(); ++j) {
@@ -34,7 +34,7 @@ double nearest(const Cycle& cycle, Crossing through) {
   return out.value_or(0);
 }
 
-/// Reals that have gone out, or come in, tell by their sign; else a pair has.
+/// A change in the number of real multipliers beyond -1 or beyond 1; otherwise a pair has crossed.
 Crossing crossing(const Cycle& a, const Cycle& b) {
   if (real_outside(a, -1) % 2 != real_outside(b, -1) % 2) return Crossing::minus_one;
   if (real_outside(a, 1) % 2 != real_outside(b, 1) % 2) return Crossing::plus_one;

@@ -24,15 +24,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_newton = 25, most_halvings = 8;
-constexpr double at_once = 1e-4;       // of the period: a return so soon is of the point itself
-constexpr double no_direction = 1e-3;  // of the greatest displacement: the constraints have taken this one away
+constexpr double at_once = 1e-4;       // of the period: an earlier return is that of the point itself
+constexpr double no_direction = 1e-3;  // of the largest displacement: the constraints do not allow this direction
 constexpr double same_for_any_time = 1e-6;
-constexpr double singular = 1e-7;      // of the greatest pivot: orbits fill a family, of which the nearest is taken
+constexpr double singular = 1e-7;      // of the largest pivot: smaller ones mean a family of orbits; the nearest is taken
 constexpr double closes_before = 100;  // times the tolerance
 constexpr double neutral_within = 1e-5;
 constexpr const char* no_orbit = "no periodic orbit";
 
-/// Angles of bodies to the turn nearest to 0: a crank that has turned once is where it was.
+/// Removes whole turns from the angles of bodies: a crank that has turned once is where it was.
 void without_turns(const System& system, VectorXd& difference) {
   constexpr double turn = 2 * std::numbers::pi;
   for (Index k = 2; k < system.n_rigid(); k += 3) difference[k] -= turn * std::round(difference[k] / turn);
@@ -40,7 +40,7 @@ void without_turns(const System& system, VectorXd& difference) {
 
 VectorXd as_vector(const std::vector<double>& x) { return VectorXd::Map(x.data(), static_cast<Index>(x.size())); }
 
-/// What becomes of small changes of a point: directions on the constraints, over the scales, and the map's derivative along them.
+/// Linearised map at a point: the directions that the constraints allow, in scaled coordinates, and the derivative along them.
 struct Linearised {
   MatrixXd directions, derivative;
 };
@@ -56,13 +56,13 @@ class Shooting {
         neighbour_(model.system, model.scheme, near) {}
 
   Cycle find(const CycleGuess& guess, const std::function<std::vector<double>(Integrator&)>& read) {
-    if (guess.size() != scales_.size()) throw OrbitTrouble{no_orbit, "the scene has other coordinates than at the value before"};
+    if (guess.size() != scales_.size()) throw OrbitTrouble{no_orbit, "the scene has other coordinates than at the previous value"};
     point_ = near_.y.head(scales_.size());
     VectorXd from_motion = guess - point_;
     without_turns(model_.system, from_motion);
     point_ += from_motion;
     miss_ = miss(point_);
-    if (run_.interval == 0) judge_time();
+    if (run_.interval == 0) check_autonomous();
     newton();
     const Linearised here = linearise();
     Cycle out;
@@ -90,7 +90,7 @@ class Shooting {
     return out.cwiseQuotient(scales_);
   }
 
-  /// On to the next return after `begun`, the k-th.
+  /// Integrates to the k-th return after `begun`.
   void to_return(Integrator& integrator, double begun, int k) const {
     if (run_.interval > 0) return go_to(integrator, begun + k * run_.interval, go_on_);
     while (go_to_return(integrator, begun + run_.longest, go_on_))
@@ -103,7 +103,7 @@ class Shooting {
     for (int k = 1; k <= run_.period; ++k) to_return(integrator, begun, k);
   }
 
-  /// By how much a point is missed after the period, over the scales. The point is brought onto the constraints.
+  /// Residual of the shooting method: scaled distance between the point and the motion after the period. Projects the point onto the constraints.
   VectorXd miss(VectorXd& point) const {
     const auto integrator = begin(point);
     point = head(*integrator);
@@ -111,9 +111,9 @@ class Shooting {
     return apart(head(*integrator), point);
   }
 
-  /// Returns that are events close an orbit only where time itself is of no account.
-  void judge_time() const {
-    constexpr double later = 0.381966;  // of the period: no simple part of any
+  /// If returns are events, an orbit can close only if nothing depends on time itself. @throws OrbitTrouble  something does
+  void check_autonomous() const {
+    constexpr double later = 0.381966;  // of the period: not a simple fraction
     const auto integrator = begin(point_, later * run_.expected);
     bool same = apart(head(*integrator), point_).lpNorm<Eigen::Infinity>() < same_for_any_time;
     if (same) {
@@ -136,11 +136,11 @@ class Shooting {
       if (!step.allFinite() || !step_along(step)) break;
     }
     if (miss_.lpNorm<Eigen::Infinity>() <= run_.tolerance) return;
-    throw OrbitTrouble{no_orbit, "Newton's method comes no nearer than " + number_text(miss_.lpNorm<Eigen::Infinity>(), 3) +
+    throw OrbitTrouble{no_orbit, "Newton's method comes no closer than " + number_text(miss_.lpNorm<Eigen::Infinity>(), 3) +
                                      " of the scales; take values closer together, a longer section.transient, or another orbit.period"};
   }
 
-  /// The whole step, or the first of its halves that comes nearer. @returns false: none does
+  /// Takes the step, halved until the residual decreases. @returns false if it does not
   bool step_along(const VectorXd& step) {
     double part = 1;
     for (int k = 0; k <= most_halvings; ++k, part /= 2) {
@@ -157,7 +157,7 @@ class Shooting {
     return false;
   }
 
-  /// A neighbour in the modes of the motion at the point. @returns its distance on the constraints
+  /// Moves the neighbour away from the point, with the modes of the motion there. @returns its scaled distance on the constraints
   VectorXd set_apart(const std::string& here, const VectorXd& by) {
     neighbour_.load(here);
     if (!neighbour_.change([&](State& state) { state.y.head(by.size()) += by.cwiseProduct(scales_); }))
@@ -165,7 +165,7 @@ class Shooting {
     return apart(head(neighbour_), point_);
   }
 
-  /// An orthonormal basis of the distances that the constraints allow.
+  /// An orthonormal basis of the directions that the constraints allow.
   MatrixXd directions_at(const std::string& here) {
     const Index n = scales_.size();
     MatrixXd allowed(n, n);
@@ -181,7 +181,7 @@ class Shooting {
     const std::string here = integrator->save();
     Linearised out{directions_at(here), {}};
     const Index d = out.directions.cols();
-    if (d == 0) throw OrbitTrouble{no_orbit, "the mechanism has no freedom of its own: drivers hold all of it"};
+    if (d == 0) throw OrbitTrouble{no_orbit, "the mechanism has no free motion: drivers prescribe all of it"};
     MatrixXd before(d, d), after(d, d);
     for (Index j = 0; j < d; ++j) {
       VectorXd began = VectorXd::Zero(scales_.size()), came = began;
@@ -202,7 +202,7 @@ class Shooting {
     std::sort(all.begin(), all.end(), [](const std::complex<double>& a, const std::complex<double>& b) {
       return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : std::arg(a) > std::arg(b);
     });
-    const Index own = run_.interval == 0 ? 1 : 0;  // the direction of the motion itself, which the section takes to 0
+    const Index own = run_.interval == 0 ? 1 : 0;  // along the motion itself the section makes it 0
     for (Index j = 0; j < all.size() - own; ++j) out.re.push_back(all[j].real()), out.im.push_back(all[j].imag());
   }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_points = 2000, theiler_window = 10;
 constexpr double least_share = 1e-3, greatest_share = 2e-2;
 
-/// The last points, each coordinate over its range; those that do not vary are left out. `same` becomes the greatest of its shares of a range.
+/// The last points, each coordinate divided by its range; constant ones are left out. `same` becomes its largest ratio to a range.
 std::vector<std::vector<double>> over_ranges(const std::vector<std::vector<double>>& points, double& same) {
   const std::size_t count = std::min(points.size(), most_points), first = points.size() - count;
   std::vector<std::vector<double>> out(count);
@@ -40,7 +40,7 @@ std::vector<double> distances(const std::vector<std::vector<double>>& points) {
   return out;
 }
 
-/// The r below which a share of all lies.
+/// The distance below which this share of all distances lies.
 double radius(std::vector<double>& all, double share) {
   const auto at = all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(all.size()));
   std::ranges::nth_element(all, at);

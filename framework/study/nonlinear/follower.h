@@ -12,13 +12,13 @@ struct OrbitTrouble {
   std::string status, reason;
 };
 
-/// On to time t, where a step ends. @throws OrbitTrouble  it cannot, or is not to, go on
+/// Integrates to time t. @throws OrbitTrouble  it fails, ends or is interrupted
 void go_to(Integrator&, double t, const std::function<bool()>& go_on);
-/// On to the end of the step at which an event asks for a row. @returns false: it has not by `until`
+/// Integrates to the end of the step at which an event asks for a row. @returns false if none has until `until`
 /// @throws OrbitTrouble  likewise
 bool go_to_return(Integrator&, double until, const std::function<bool()>& go_on);
 
-/// What coordinates, speeds and states are measured by: coordinates by their own scales, speeds by these over a time.
+/// Scales of coordinates, speeds and states: speeds have those of the coordinates divided by a time.
 Eigen::VectorXd phase_scales(const System&, double time);
 
 }  // namespace pintle

@@ -17,10 +17,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_running = 200;   // running values that are kept
-constexpr double dependent = 1e-6;  // of the largest: a distance that is none of its own
+constexpr int most_running = 200;   // running values kept
+constexpr double dependent = 1e-6;  // of the largest: a smaller distance is linearly dependent
 
-/// Gram and Schmidt's D = Q R, with a positive diagonal.
+/// Gram–Schmidt, D = Q R with a positive diagonal.
 void orthonormalise(const MatrixXd& D, MatrixXd& Q, MatrixXd& R) {
   const Index k = D.cols();
   Q = D;
@@ -53,7 +53,7 @@ class Neighbours {
     }
   }
 
-  /// One interval. @returns the logarithm of each growth
+  /// Integrates one interval. @returns the logarithm of each growth
   VectorXd grow(double until) {
     const MatrixXd before = set_apart();
     orthonormalise(before, Q_, R_);
@@ -65,7 +65,7 @@ class Neighbours {
       go_to(*apart_[static_cast<std::size_t>(j)], until, go_on_);
       after.col(j) = distance(*apart_[static_cast<std::size_t>(j)]);
     }
-    // What unit vectors along the columns of Q have become.
+    // The images of unit vectors along the columns of Q.
     const MatrixXd grown = R_.triangularView<Eigen::Upper>().transpose().solve(after.transpose()).transpose();
     orthonormalise(grown, Q_, R_);
     if (!(R_.diagonal().array() > 0).all() || !R_.allFinite())
@@ -76,14 +76,14 @@ class Neighbours {
 
  private:
   [[noreturn]] static void too_many(Index dimensions) {
-    throw OrbitTrouble{"failed", "the phase space has " + std::to_string(dimensions) + " dimensions; ask for as many exponents at most"};
+    throw OrbitTrouble{"failed", "the phase space has " + std::to_string(dimensions) + " dimensions; ask for at most as many exponents"};
   }
 
   VectorXd distance(const Integrator& neighbour) const {
     return (neighbour.state().y - main_.state().y).head(scales_.size()).cwiseQuotient(scales_);
   }
 
-  /// Each neighbour beside the motion, on the constraints, in the modes of the motion. @returns the distances
+  /// Moves each neighbour beside the motion, on the constraints, with the modes of the motion. @returns the scaled distances
   MatrixXd set_apart() {
     const std::string here = main_.save();
     MatrixXd out(scales_.size(), Q_.cols());
@@ -106,7 +106,7 @@ class Neighbours {
   std::vector<std::unique_ptr<Integrator>> apart_;
 };
 
-/// Mean and standard error of rates, by the scatter of the means over batches of them, which hardly know of each other.
+/// Mean and standard error of rates, from the scatter of the means of batches, which are nearly independent.
 Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
   const std::size_t n = logs.size();
   Exponent out;

@@ -10,14 +10,14 @@ namespace pintle {
 struct LyapunovRun {
   int count = 1;
   double interval = 0;     ///< [s]
-  long transient = 0;      ///< intervals in which neighbours turn to where they grow, and nothing is counted
-  long intervals = 1;      ///< that are counted
-  double distance = 1e-6;  ///< of neighbours, in coordinates over their scales
+  long transient = 0;      ///< intervals before counting, in which neighbours turn to the directions of growth
+  long intervals = 1;      ///< counted
+  double distance = 1e-6;  ///< of neighbours, in scaled coordinates
 };
 
-/// The greatest Lyapunov exponents of the motion from the integrator's state on, by neighbours, which are brought back to the distance, and
-/// apart from each other, after each interval (Benettin and others, 1980). The integrator goes on to the end.
-/// @throws OrbitTrouble  it cannot go on, or the phase space has fewer dimensions
+/// The largest Lyapunov exponents of the motion from the integrator's state on. After each interval the neighbours are orthogonalised and
+/// brought back to the distance (Benettin and others, 1980). The integrator moves to the end.
+/// @throws OrbitTrouble  it cannot continue, or the phase space has fewer dimensions
 void lyapunov_exponents(const Model&, Integrator&, const LyapunovRun&, const std::function<bool()>& go_on, Orbit& out);
 
 }  // namespace pintle

@@ -25,7 +25,7 @@ using wall_clock = std::chrono::steady_clock;
 
 double seconds_since(wall_clock::time_point begin) { return std::chrono::duration<double>(wall_clock::now() - begin).count(); }
 
-/// Threads that follow chains of values and write what they come to into the journal. What has ended is gone on from.
+/// Threads that follow chains of values and write the results into the journal. They continue from values that are already there.
 class ChainWorkers {
  public:
   ChainWorkers(const Nonlinear& study, Journal& journal, std::vector<Row> ended)
@@ -93,7 +93,7 @@ class ChainWorkers {
       } else {
         const auto begin = wall_clock::now();
         Row row = follow_one(number, known ? &before : nullptr);
-        tell(number, {});
+        set_progress(number, {});
         if (stopped_ || row.status == status_text(Status::interrupted)) return;
         row.worker = "0." + std::to_string(thread);
         row.run_seconds = seconds_since(begin);
@@ -111,8 +111,8 @@ class ChainWorkers {
     double share = 0;
     std::string at;
   };
-  /// How far a value is; nothing: it has ended.
-  void tell(std::size_t number, const std::optional<Far>& far) {
+  /// Stores the progress of a value; nothing: it has ended.
+  void set_progress(std::size_t number, const std::optional<Far>& far) {
     const std::lock_guard lock(mutex_);
     if (far)
       begun_[number] = *far;
@@ -124,7 +124,7 @@ class ChainWorkers {
     Row row;
     row.number = number;
     const OrbitLimits limits{.seconds = study_.sweep.limits.seconds, .go_on = [&](double share, const std::string& at) {
-                               tell(number, Far{share, at});
+                               set_progress(number, Far{share, at});
                                return !stopped_;
                              }};
     try {
@@ -149,7 +149,7 @@ class ChainWorkers {
   BodyStore bodies_;
   std::atomic<bool> stopped_ = false;
   std::atomic<int> running_ = 0;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< protects the members below
   std::size_t done_ = 0, troubled_ = 0;
   std::map<std::size_t, Far> begun_;  ///< by their numbers
   double busy_ = 0;

@@ -15,13 +15,7 @@ namespace pintle {
 
 namespace {
 
-std::string number_field(double x) {
-  std::string out;
-  append_number(out, x);
-  return out;
-}
-
-/// The unit that values of the parameter are written in, where all are numbers of one kind; else nothing.
+/// The unit of the parameter's values if all are numbers of one dimension; otherwise nothing.
 std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
   std::optional<std::string> out;
   for (std::size_t k = 0; k < study.sweep.cases.size(); ++k) {
@@ -36,7 +30,7 @@ std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
 
 std::string with_its_unit(const std::string& name, const std::string& unit) { return unit.empty() ? name : name + " [" + unit + "]"; }
 
-/// What stands at the head of each row: parameter and direction, where they are.
+/// Headings of the first columns: parameter and direction, if any.
 std::string heading_of_values(const Nonlinear& study) {
   std::string out;
   if (study.varies()) out += csv_field(parameter_header(study)) + ",";
@@ -86,7 +80,7 @@ std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Ro
     FollowedValue& value = out.emplace_back();
     const std::size_t k = study.case_of(row.number);
     value.x = parameters[k];
-    if (study.varies()) value.parameter = numbers ? number_field(value.x) : study.sweep.cases.values[k][0].value_or("");
+    if (study.varies()) value.parameter = numbers ? number_exactly(value.x) : study.sweep.cases.values[k][0].value_or("");
     value.backwards = study.backwards(row.number);
     value.status = row.status, value.reason = row.reason;
     value.orbit = Orbit::of(row.values);
@@ -102,8 +96,8 @@ std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   for (const FollowedValue& value : followed(study, rows)) {
     const std::string head = fields_of(study, value);
     for (std::size_t k = 0; k < value.orbit.t.size(); ++k) {
-      out += head + std::to_string(k + 1) + "," + number_field(value.orbit.t[k]);
-      for (const double x : value.orbit.signals[k]) out += "," + number_field(x);
+      out += head + std::to_string(k + 1) + "," + number_exactly(value.orbit.t[k]);
+      for (const double x : value.orbit.signals[k]) out += "," + number_exactly(x);
       out += '\n';
     }
   }
@@ -122,13 +116,13 @@ std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   for (const FollowedValue& value : values) {
     const Cycle& cycle = value.orbit.cycle;
     if (!cycle.found()) continue;
-    std::string tail = "," + number_field(cycle.period) + "," + number_field(cycle.least) +
+    std::string tail = "," + number_exactly(cycle.period) + "," + number_exactly(cycle.least) +
                        (cycle.continued > 0 ? ",branch," : ",motion,") + stability_word(stability(cycle));
     for (std::size_t j = 0; j < multipliers; ++j)
-      tail += j < cycle.re.size() ? "," + number_field(cycle.modulus(j)) + "," + number_field(cycle.argument(j)) : ",,";
+      tail += j < cycle.re.size() ? "," + number_exactly(cycle.modulus(j)) + "," + number_exactly(cycle.argument(j)) : ",,";
     for (std::size_t k = 0; k < cycle.signals.size(); ++k) {
       out += fields_of(study, value) + std::to_string(k + 1);
-      for (const double x : cycle.signals[k]) out += "," + number_field(x);
+      for (const double x : cycle.signals[k]) out += "," + number_exactly(x);
       out += tail + "\n";
     }
   }
@@ -152,15 +146,15 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
       const ImpactFigures& f = orbit.impacts;
       const double n = static_cast<double>(orbit.t.size()), none = std::numeric_limits<double>::quiet_NaN();
       const auto known = [&](double x) { return f.count > 0 ? x : none; };
-      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period) + "," + number_field(orbit.zero_one) + "," +
-             number_field(orbit.dimension);
+      out += "," + std::to_string(orbit.t.size()) + "," + std::to_string(value.period) + "," + number_exactly(orbit.zero_one) + "," +
+             number_exactly(orbit.dimension);
       for (const double x : {n > 0 ? f.count / n : none, f.count > 1 ? f.interval : none, known(f.least_approach), known(f.median),
                              known(f.most_approach), n > 0 ? f.grazing : none, n > 0 ? f.contact_share : none})
-        out += "," + number_field(x);
+        out += "," + number_exactly(x);
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(exponents); ++j) {
       const bool there = j < orbit.exponents.size();
-      out += "," + (there ? number_field(orbit.exponents[j].value) : "") + "," + (there ? number_field(orbit.exponents[j].error) : "");
+      out += "," + (there ? number_exactly(orbit.exponents[j].value) : "") + "," + (there ? number_exactly(orbit.exponents[j].error) : "");
     }
     out += "," + csv_field(value.reason) + "\n";
   }
@@ -206,8 +200,8 @@ std::string lyapunov_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   for (const FollowedValue& value : followed(study, rows)) {
     const std::string head = fields_of(study, value);
     for (std::size_t k = 0; k < value.orbit.running_t.size(); ++k) {
-      out += head + number_field(value.orbit.running_t[k]);
-      for (const double x : value.orbit.running[k]) out += "," + number_field(x);
+      out += head + number_exactly(value.orbit.running_t[k]);
+      for (const double x : value.orbit.running[k]) out += "," + number_exactly(x);
       out += '\n';
     }
   }

@@ -12,26 +12,26 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int most_returns = 1'000'000;
 
-/// Judges an expression by what the scene's reader says of it where an override puts it.
-class Trying {
+/// Checks an expression with the reader of the scene, by overriding a key with it.
+class ExpressionCheck {
  public:
-  Trying(const CaseSource& source, const Overrides& set) : source_(source), set_(set) {}
+  ExpressionCheck(const CaseSource& source, const Overrides& set) : source_(source), set_(set) {}
 
-  /// @throws SceneError  the scene does not take `text` there, at the node
-  void judge(const Node& node, const Overrides& put) const {
+  /// @throws SceneError  at the node, if the scene does not accept the overrides
+  void check(const Node& node, const Overrides& put) const {
     Overrides all = set_;
     all.insert(all.end(), put.begin(), put.end());
     try {
       build(case_scene(source_, all));
     } catch (const SceneError& error) {
       const std::string of_it = about(error.what(), put);
-      if (of_it.empty()) throw;  // of another override, which is named
+      if (of_it.empty()) throw;  // the message concerns another override and names it
       node.fail(of_it);
     }
   }
 
  private:
-  /// What is said behind "--set PATH", with what stands below it; empty: it is of none of these.
+  /// The part of a message after "--set PATH"; empty if it concerns none of these.
   static std::string about(const std::string& said, const Overrides& put) {
     for (const auto& [path, text] : put) {
       const std::string mark = ": --set " + path;
@@ -48,9 +48,9 @@ class Trying {
 };
 
 /// An expression for a time, in the scene's parameters.
-std::string read_time(const Node& node, const Trying& trying) {
+std::string read_time(const Node& node, const ExpressionCheck& expressions) {
   const std::string text = node.text("a time such as 2*pi/omega or 10 ms");
-  trying.judge(node, {{"output", "null"}, {"run.until", override_text(node.yaml())}});
+  expressions.check(node, {{"output", "null"}, {"run.until", override_text(node.yaml())}});
   return override_text(node.yaml());
 }
 
@@ -74,38 +74,39 @@ int read_count(const Node& node, long least) {
   return static_cast<int>(n);
 }
 
-SectionQuestion read_section(const Node& node, const Trying& trying) {
+SectionQuestion read_section(const Node& node, const ExpressionCheck& expressions) {
   static const std::vector<std::string> kinds{"every", "when"};
   check_keys(node, "study.section");
   SectionQuestion out;
-  if (which_key(node, kinds, "where the motion is looked at") == "every")
-    out.every = read_time(node.at("every"), trying);
+  if (which_key(node, kinds, "where the motion is sampled") == "every")
+    out.every = read_time(node.at("every"), expressions);
   else
     out.when = override_text(node.at("when").yaml());
   out.record = read_record(node.at("record"));
   if (node.has("transient")) out.transient = read_count(node.at("transient"), 0);
-  if (node.has("returns")) out.returns = read_count(node.at("returns"), 2);  // of fewer none can come again
+  if (node.has("returns")) out.returns = read_count(node.at("returns"), 2);  // fewer cannot repeat
   if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
-  // One after another, so that what is wrong is named.
+  // One after another, so that the error names the wrong one.
   OrbitQuestion question;
   question.section = out;
   const Overrides all = recording(question);
   const Node record = node.at("record");
   for (std::size_t k = 0; k < out.record.size(); ++k) {
     const Node entry = record.is_map() ? record.at(out.record[k].name) : record;
-    trying.judge(entry, {all[k]});
+    expressions.check(entry, {all[k]});
   }
-  if (!out.when.empty()) trying.judge(node.at("when"), Overrides(all.begin() + static_cast<std::ptrdiff_t>(out.record.size()), all.end()));
+  if (!out.when.empty())
+    expressions.check(node.at("when"), Overrides(all.begin() + static_cast<std::ptrdiff_t>(out.record.size()), all.end()));
   return out;
 }
 
-LyapunovQuestion read_lyapunov(const Node& node, const Trying& trying) {
+LyapunovQuestion read_lyapunov(const Node& node, const ExpressionCheck& expressions) {
   check_keys(node, "study.lyapunov");
   LyapunovQuestion out;
   if (node.has("exponents")) out.exponents = read_count(node.at("exponents"), 1);
-  out.every = read_time(node.at("every"), trying);
-  out.over = read_time(node.at("over"), trying);
-  if (node.has("transient")) out.transient = read_time(node.at("transient"), trying);
+  out.every = read_time(node.at("every"), expressions);
+  out.over = read_time(node.at("over"), expressions);
+  if (node.has("transient")) out.transient = read_time(node.at("transient"), expressions);
   if (node.has("distance")) out.distance = node.at("distance").quantity(dimension::number, rule::inside_zero_one);
   return out;
 }
@@ -118,7 +119,7 @@ CycleQuestion read_cycle(const Node& node, const std::optional<SectionQuestion>&
   if (node.has("period")) out.period = read_count(node.at("period"), 1);
   if (out.period >= section->returns)
     node.at("period").fail("is not less than section.returns, " + std::to_string(section->returns) +
-                           ", of which the time of an orbit is taken; record more");
+                           ", from which the time of an orbit is taken; record more");
   if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
   if (node.has("distance")) out.distance = node.at("distance").quantity(dimension::number, rule::inside_zero_one);
   return out;
@@ -140,23 +141,24 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
   const Node root = file.root();
   if (!root.has("section") && !root.has("lyapunov")) root.fail(std::string("has neither section nor lyapunov; add for example ") + example);
   for (const char* other : {"measure", "analysis", "situations", "sweep"})
-    if (root.has(other)) root.at(other).fail("is of other studies; leave it out beside section and lyapunov");
-  if (root.has("direction") && !root.has("over")) root.at("direction").fail("is of studies over a parameter; add over, or leave it out");
+    if (root.has(other)) root.at(other).fail("belongs to other studies; leave it out beside section and lyapunov");
+  if (root.has("direction") && !root.has("over"))
+    root.at("direction").fail("belongs to studies over a parameter; add over, or leave it out");
   CaseSource source = file.study.scene;
   source.common.insert(source.common.end(), set.begin(), set.end());
   const Cases cases = read_over(root);
-  if (!cases.names.empty()) cases_of(file, cases, path, set, {});  // what is wrong with the values is said of them
+  if (!cases.names.empty()) cases_of(file, cases, path, set, {});  // so that errors of the values are reported at them
   const Overrides first = cases.overrides(0);
-  const Trying trying(source, first);
+  const ExpressionCheck expressions(source, first);
   Nonlinear out;
   if (root.has("direction")) {
     const auto words = choices("study", "direction");
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
-  if (root.has("section")) out.question.section = read_section(root.at("section"), trying);
+  if (root.has("section")) out.question.section = read_section(root.at("section"), expressions);
   if (root.has("orbit")) out.question.cycle = read_cycle(root.at("orbit"), out.question.section);
   if (root.has("lyapunov")) {
-    out.question.lyapunov = read_lyapunov(root.at("lyapunov"), trying);
+    out.question.lyapunov = read_lyapunov(root.at("lyapunov"), expressions);
     try {
       lyapunov_times(source, first, *out.question.lyapunov);
     } catch (const std::invalid_argument& error) {

@@ -25,7 +25,7 @@ constexpr const char* event_name = "return to the section";
 
 std::string output_name(std::size_t k) { return "return " + std::to_string(k + 1); }
 
-/// The scene of one value, in which the section alone asks for rows.
+/// The scene of one value, in which only the section's event asks for rows.
 Scene recording_scene(const CaseSource& source, const Overrides& set) {
   Scene scene = case_scene(source, set);
   for (SceneEvent& event : scene.events)
@@ -33,13 +33,13 @@ Scene recording_scene(const CaseSource& source, const Overrides& set) {
   return scene;
 }
 
-/// The columns of the trajectory that are recorded.
-struct Columns {
+/// The recorded columns of the trajectory.
+struct RecordedColumns {
   Table row;
   std::vector<std::size_t> at;
   std::vector<std::string> units;
 
-  Columns(const Model& model, const OrbitQuestion& question) : row(trajectory_table(model)) {
+  RecordedColumns(const Model& model, const OrbitQuestion& question) : row(trajectory_table(model)) {
     const std::size_t n = question.section ? question.section->record.size() : 0;
     for (std::size_t k = 0; k < n; ++k) {
       const std::string name = output_name(k);
@@ -65,8 +65,8 @@ double time_of(const CaseSource& source, Overrides set, const std::string& text)
   return case_scene(source, set).run.until;
 }
 
-/// The start of a value: the scene's own, with the coordinates, speeds and states of another value's end. Integrals of the ledger begin
-/// at 0, contacts as they lie.
+/// The start of a value: the scene's own, with the coordinates, speeds and states at the end of another value. Integrals of the ledger start
+/// at 0; contacts follow from the positions.
 State start_of(const System& system, const Assembly& assembly, const Orbit* before, bool clock_goes_on) {
   State start = assembly.start;
   if (!before || before->end.size() != static_cast<std::size_t>(system.z_begin())) return start;
@@ -98,7 +98,7 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
   return out;
 }
 
-/// Of the first signal. What comes again within the section's tolerance is the same.
+/// The 0–1 test of the first signal. Differences within the section's tolerance count as 0.
 double zero_one_of(const std::vector<std::vector<double>>& signals, double tolerance) {
   std::vector<double> first;
   double most = 0;
@@ -106,7 +106,7 @@ double zero_one_of(const std::vector<std::vector<double>>& signals, double toler
   return zero_one_test(first, tolerance * most);
 }
 
-/// One value, from its scene to what it has come to.
+/// Computes one value, from its scene to its results.
 class Following {
  public:
   Following(const CaseSource& source, const Overrides& set, const OrbitQuestion& question, const Orbit* before, double x, BodyStore& bodies,
@@ -125,7 +125,7 @@ class Following {
     if (question.cycle) scene_.run.until += longest_;
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
-    if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared: all by one method, as accurate as at the start
+    if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared, so one method integrates all of them to the end
     start_ = start_of(model_.system, assemble(scene_, model_), before, clock_goes_on);
   }
 
@@ -136,7 +136,7 @@ class Following {
     try {
       if (question_.section) {
         returns(integrator);
-        keep_end(integrator);  // at a return: what goes on from here has the same phase
+        keep_end(integrator);  // at a return, so that the next value starts in the same phase
       }
       if (question_.cycle && out_.status.empty()) cycle(integrator);
       if (question_.lyapunov) exponents(integrator);
@@ -158,8 +158,8 @@ class Following {
   using work_clock = std::chrono::steady_clock;
   static constexpr const char* out_of_time = "over its limit";
 
-  /// Whether to go on; tells how far the value is. @throws OrbitTrouble  it has had its time
-  bool heed() const {
+  /// Reports the progress. @returns whether to continue @throws OrbitTrouble  the time limit is exceeded
+  bool report_progress() const {
     const std::string at = place();
     const double seconds = std::chrono::duration<double>(work_clock::now() - begin_).count();
     if (limits_.seconds > 0 && seconds > limits_.seconds)
@@ -172,7 +172,7 @@ class Following {
     return "return " + std::to_string(came_) + " of " + std::to_string(all_returns());
   }
   int all_returns() const { return question_.section ? question_.section->transient + question_.section->returns : 0; }
-  /// Of the work, if a second of the motion costs as much everywhere, and as much again for each neighbour.
+  /// Share of the work, if every second of motion costs the same and each neighbour costs as much again.
   double share() const {
     const double t = integrator_->state().t, alone = question_.section ? last_ - first_ : 0;
     const double beside = question_.lyapunov ? times_.whole() * (1 + question_.lyapunov->exponents) : 0;
@@ -189,7 +189,7 @@ class Following {
 
   void returns(Integrator& integrator) {
     const SectionQuestion& section = *question_.section;
-    Columns columns(model_, question_);
+    RecordedColumns columns(model_, question_);
     out_.units = columns.units;
     const double from = integrator.state().t;
     double begin = from;
@@ -213,7 +213,7 @@ class Following {
     if (integrator.state().t > begin) out_.orbit.impacts = figures(integrator.impacts(), begin, integrator.state().t);
   }
 
-  /// From the orbits of the values before; where that leads to none, from the motion.
+  /// Finds the periodic orbit from those of previous values; if that fails, from the motion.
   void cycle(const Integrator& integrator) {
     const CycleQuestion& asked = *question_.cycle;
     cycle_begun_ = true;
@@ -221,7 +221,7 @@ class Following {
     CycleRun run{.period = asked.period, .interval = out_.orbit.interval, .longest = longest_, .distance = asked.distance};
     run.expected = t.back() - t[t.size() - 1 - static_cast<std::size_t>(asked.period)];
     run.tolerance = asked.tolerance > 0 ? asked.tolerance : 100 * model_.scheme.tolerance;
-    Columns columns(model_, question_);
+    RecordedColumns columns(model_, question_);
     const auto read = [&](Integrator& at) { return columns.read(model_, at, sampled_); };
     const Cycle* branch = before_ && before_->cycle.found() ? &before_->cycle : nullptr;
     const auto find = [&](const CycleGuess& guess) { out_.orbit.cycle = find_cycle(model_, integrator.state(), guess, run, read, go_on_); };
@@ -269,20 +269,20 @@ class Following {
   const Orbit* before_;
   double x_;
   const OrbitLimits& limits_;
-  const std::function<bool()> go_on_ = [this] { return heed(); };
+  const std::function<bool()> go_on_ = [this] { return report_progress(); };
   OrbitEnd& out_;
   Scene scene_;
   Model model_;
   State start_, sampled_;
-  double first_ = 0;    ///< where the value begins [s]
-  double last_ = 0;     ///< by which returns must have come [s]
-  double longest_ = 0;  ///< that a periodic orbit is given [s]
+  double first_ = 0;    ///< time at which the value begins [s]
+  double last_ = 0;     ///< time limit for returns [s]
+  double longest_ = 0;  ///< longest time of a periodic orbit [s]
   LyapunovTimes times_;
   const Integrator* integrator_ = nullptr;
   work_clock::time_point begin_;
   bool cycle_begun_ = false;
-  int came_ = 0;                            ///< returns, those that are not recorded too
-  std::optional<double> neighbours_begin_;  ///< [s]; none: they do not go yet
+  int came_ = 0;                            ///< returns so far, including those that are not recorded
+  std::optional<double> neighbours_begin_;  ///< [s]; empty before they begin
 };
 
 }  // namespace

@@ -16,16 +16,16 @@ struct Recorded {
   std::string name, expression;
 };
 
-/// Where the motion is looked at. Texts are expressions of the scene, times in its parameters.
+/// Where the motion is sampled. Texts are expressions of the scene; times may use its parameters.
 struct SectionQuestion {
   std::string every;  ///< a time; or
-  std::string when;   ///< a condition that turns true
+  std::string when;   ///< a condition that becomes true
   std::vector<Recorded> record;
   int transient = 100, returns = 100;
-  double tolerance = 1e-4;  ///< of a period, next to the largest magnitude of each signal
+  double tolerance = 1e-4;  ///< of a period, relative to the largest magnitude of each signal
 };
 
-/// What is asked of the growth of small distances.
+/// Settings for Lyapunov exponents.
 struct LyapunovQuestion {
   int exponents = 1;
   std::string every, over;
@@ -33,10 +33,10 @@ struct LyapunovQuestion {
   double distance = 1e-6;
 };
 
-/// Which periodic orbit is sought near the motion.
+/// Settings for the periodic orbit near the motion.
 struct CycleQuestion {
   int period = 1;          ///< returns
-  double tolerance = 0;    ///< of a point that comes again, in coordinates over their scales; 0: a hundred times that of the run
+  double tolerance = 0;    ///< of the residual, in scaled coordinates; 0: a hundred times that of the run
   double distance = 1e-6;  ///< of neighbours, likewise
 };
 
@@ -46,20 +46,20 @@ struct OrbitQuestion {
   std::optional<LyapunovQuestion> lyapunov;
 };
 
-/// Overrides by which a scene records what a section asks for, and finds when.
+/// Overrides with which a scene records the signals of a section and finds its returns.
 Overrides recording(const OrbitQuestion&);
 
-/// Contacts in the time of the returns that are recorded, of all contacts together.
+/// Statistics of impacts in the time of the recorded returns, over all contacts.
 struct ImpactFigures {
-  double count = 0;                                          ///< that began in it
+  double count = 0;                                          ///< that began in that time
   double interval = 0;                                       ///< between beginnings, mean [s]
   double least_approach = 0, median = 0, most_approach = 0;  ///< [m/s]
-  double grazing = 0;                                        ///< of them, slower than grazing_share of the median
-  double contact_share = 0;                                  ///< of the time, summed over contacts
+  double grazing = 0;                                        ///< number that are slower than grazing_share of the median
+  double contact_share = 0;                                  ///< share of the time in contact, summed over contacts
 };
 inline constexpr double grazing_share = 0.05;
 
-/// An exponent, and the standard error of its mean over batches of the intervals [1/s]. Of fewer intervals than batches it is NaN.
+/// An exponent and its standard error, from the means of batches of intervals [1/s]. The error is NaN with fewer intervals than batches.
 struct Exponent {
   double value = 0, error = 0;
 };
@@ -67,14 +67,14 @@ inline constexpr int exponent_batches = 20;
 
 /// A periodic orbit, stable or not.
 struct Cycle {
-  std::vector<double> point;                 ///< coordinates, speeds and states at a return; empty: none was found
-  double x = 0;                              ///< the parameter that it is of
+  std::vector<double> point;                 ///< coordinates, speeds and states at a return; empty if none was found
+  double x = 0;                              ///< value of the parameter
   std::vector<std::vector<double>> signals;  ///< at each of its returns, from the point on
   double period = 0;                         ///< [s]
-  double least = 0;                          ///< returns after which it closes first
-  std::vector<double> re, im;                ///< of its Floquet multipliers, the greatest modulus first
-  double continued = 0;                      ///< 1: from the orbits of the values before; 0: from the motion
-  std::vector<double> point_before;          ///< of the value before, if continued from it, with its parameter
+  double least = 0;                          ///< smallest number of returns after which it closes
+  std::vector<double> re, im;                ///< of its Floquet multipliers, largest modulus first
+  double continued = 0;                      ///< 1: found from the orbits of previous values; 0: from the motion
+  std::vector<double> point_before;          ///< orbit of the previous value, if continued from it
   double x_before = 0;
 
   bool found() const { return !point.empty(); }
@@ -83,62 +83,62 @@ struct Cycle {
 };
 
 enum class OrbitStability { stable, neutral, unstable };
-/// Neutral: the greatest modulus is 1 as closely as differences tell. @pre it was found
+/// Neutral: the largest modulus is 1 within the accuracy of differences. @pre it was found
 OrbitStability stability(const Cycle&);
 std::string stability_word(OrbitStability);
 
-/// What one value of the parameter has come to.
+/// Results at one value of the parameter.
 struct Orbit {
-  std::vector<double> t;                     ///< of each return recorded [s]
+  std::vector<double> t;                     ///< of each recorded return [s]
   std::vector<std::vector<double>> signals;  ///< of each
   ImpactFigures impacts;
   double zero_one = std::numeric_limits<double>::quiet_NaN();   ///< K of the first signal; NaN: too few returns
-  double dimension = std::numeric_limits<double>::quiet_NaN();  ///< of the section, by its correlations; likewise
+  double dimension = std::numeric_limits<double>::quiet_NaN();  ///< correlation dimension of the section; likewise
   Cycle cycle;
   std::vector<Exponent> exponents;
   std::vector<double> running_t;             ///< [s]
-  std::vector<std::vector<double>> running;  ///< the exponents as they have come to by then
+  std::vector<std::vector<double>> running;  ///< estimates of the exponents at these times
   double interval = 0;                       ///< of a section by time [s]
-  double end_t = 0;                          ///< the state to go on from
-  std::vector<double> end;                   ///< coordinates, speeds, states; none: there is none
+  double end_t = 0;                          ///< time of the final state
+  std::vector<double> end;                   ///< final coordinates, speeds and states; empty if there are none
 
-  /// All of it as numbers, which a journal keeps to the bit.
+  /// All members as numbers, which a journal stores exactly.
   std::vector<double> numbers() const;
-  /// @throws std::invalid_argument  these are no orbit
+  /// @throws std::invalid_argument  the numbers are not those of an orbit
   static Orbit of(const std::vector<double>& numbers);
 };
 
-/// How following an orbit ended.
+/// How the computation of a value ended.
 struct OrbitEnd {
-  std::string status, reason;  ///< as of a case; "too few returns"
+  std::string status, reason;  ///< as of a case; also "too few returns" and "no periodic orbit"
   Orbit orbit;
   std::vector<std::string> units;  ///< of the signals recorded
   long steps = 0, impacts = 0;
 };
 
-/// Times of the growth of distances, in the scene's parameters.
+/// Times of the computation of Lyapunov exponents, evaluated with the scene's parameters.
 struct LyapunovTimes {
   double every = 0;                   ///< [s]
-  long transient = 0, intervals = 0;  ///< whole ones
+  long transient = 0, intervals = 0;  ///< whole intervals
   double whole() const { return every * static_cast<double>(transient + intervals); }
 };
 /// @throws std::invalid_argument  `over` is less than `every`
 LyapunovTimes lyapunov_times(const CaseSource&, const Overrides&, const LyapunovQuestion&);
 
-/// What one value is followed within.
+/// Limits of one value.
 struct OrbitLimits {
-  double seconds = 0;  ///< of computing; 0: none
-  /// Told now and then which share of the value is done, and in words what is; false interrupts.
+  double seconds = 0;  ///< of computing; 0: unlimited
+  /// Called from time to time with the finished share and the progress in words; returns false to interrupt.
   std::function<bool(double share, const std::string& at)> go_on = {};
 };
 
-/// Follows one value of the parameter, from the scene's start or from where another has ended. Never throws but for want of memory.
+/// Computes one value of the parameter, from the scene's start or from the end of another value. Throws only std::bad_alloc.
 /// @param x  the parameter, along which periodic orbits are continued
 OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, double x, BodyStore&,
                       const OrbitLimits&);
 
-/// The least number of returns after which all signals come again within `tolerance`, next to the largest magnitude of each; 0: none up to
-/// half of the returns.
+/// The smallest number of returns after which all signals repeat within `tolerance`, relative to the largest magnitude of each; 0 if none does
+/// up to half of the returns.
 std::size_t period_of(const std::vector<std::vector<double>>& signals, double tolerance);
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// An orbit as a row of numbers in a journal, and back.
+// Converts an orbit to a row of numbers of a journal, and back.
 #include <stdexcept>
 
 #include "framework/study/nonlinear/orbit.h"
@@ -54,7 +54,8 @@ class NumberReader {
   std::size_t size() {
     double n = 0;
     add(n);
-    if (!(n >= 0 && n <= most_numbers && n <= static_cast<double>(from_.size() - at_))) throw std::invalid_argument("no size of a list");
+    if (!(n >= 0 && n <= most_numbers && n <= static_cast<double>(from_.size() - at_)))
+      throw std::invalid_argument("an invalid size of a list");
     return static_cast<std::size_t>(n);
   }
   const std::vector<double>& from_;

@@ -11,7 +11,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::size_t most_counted = 2000;  // returns that count
+constexpr std::size_t most_counted = 2000;  // returns used
 constexpr int frequencies = 100;
 constexpr std::uint64_t seed = 1;
 
@@ -21,7 +21,7 @@ double mean_of(const std::vector<double>& x) {
   return out;
 }
 
-/// The mean square displacement over n of (p, q), sums of x cos jc and x sin jc, x being without its mean, which would make it swing.
+/// Mean square displacement over n steps of (p, q), the sums of x cos jc and x sin jc. @pre x has mean 0; a mean would make it oscillate
 std::vector<double> displacement(const std::vector<double>& x, double c) {
   const std::size_t size = x.size(), cut = size / 10;
   std::vector<double> p(size + 1, 0.0), q(size + 1, 0.0), out;
@@ -37,7 +37,7 @@ std::vector<double> displacement(const std::vector<double>& x, double c) {
   return out;
 }
 
-/// Correlation with the place in the list. Variances of y below `least` squared are none.
+/// Correlation of y with its index. A variance of y below `least` squared counts as 0.
 double correlation(const std::vector<double>& y, double least) {
   const double mean = mean_of(y), middle = (static_cast<double>(y.size()) + 1) / 2;
   double cross = 0, places = 0, values = least * least * static_cast<double>(y.size());
@@ -58,7 +58,7 @@ double zero_one_test(const std::vector<double>& x, double same) {
   Stream stream(seed, "0-1 test");
   std::vector<double> all;
   for (int k = 0; k < frequencies; ++k) {
-    const double c = std::numbers::pi * (0.2 + 0.6 * stream.uniform());  // 0 and pi resonate with means and alternation
+    const double c = std::numbers::pi * (0.2 + 0.6 * stream.uniform());  // near 0 and pi it resonates with means and alternation
     all.push_back(correlation(displacement(last, c), same * same));
     if (!std::isfinite(all.back())) return all.back();
   }

@@ -206,7 +206,7 @@ SensitivityPlan read_sensitivity(const fs::path& path, const Overrides& set) {
   add_sobol(cases, plan);
   plan.sweep = cases_of(file, std::move(cases), path, set, step_limit(section));
   plan.sweep.print = fingerprint("sensitivity", plan.sweep.print);
-  judge_measures(plan.sweep);
+  validate_measures(plan.sweep);
   return plan;
 }
 

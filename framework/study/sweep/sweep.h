@@ -36,7 +36,7 @@ Sweep read_sweep(const std::filesystem::path&, const Overrides& set = {});
 /// @throws SceneError  none of the cases can be read, or a name is unknown
 Sweep cases_of(const StudyFile&, Cases, const std::filesystem::path&, const Overrides& set, const Overrides& common);
 /// @throws SceneError  a measured quantity does not exist
-void judge_measures(const Sweep&);
+void validate_measures(const Sweep&);
 /// The override for `most steps` in a section.
 Overrides step_limit(const Node& section);
 

@@ -56,11 +56,11 @@ std::string behind_number(const std::string& text) {
 }
 
 /// Distinguishes an error in the study from one in a case: by the reader's errors for some of the cases.
-class Trial {
+class CaseCheck {
  public:
-  explicit Trial(const Sweep& sweep) : sweep_(sweep) {}
+  explicit CaseCheck(const Sweep& sweep) : sweep_(sweep) {}
 
-  void judge() const {
+  void validate() const {
     for (std::size_t i = 0; i < sweep_.cases.names.size(); ++i) validate_name(i), validate_units(i);
     validate_all();
   }
@@ -160,13 +160,13 @@ Sweep cases_of(const StudyFile& file, Cases cases, const fs::path& path, const O
   out.print = print_of_included(scene, out.print);
   out.print = print_of_files(file.tree, folder, out.print);
   for (const auto& [name, value] : set) out.print = print_of_files({Yaml::Kind::scalar, 0, {}, value, {}}, folder, out.print);
-  Trial(out).judge();
+  CaseCheck(out).validate();
   return out;
 }
 
-void judge_measures(const Sweep& sweep) {
+void validate_measures(const Sweep& sweep) {
   const Scene all_have = common_scene(sweep.study.scene);
-  judge(sweep.study.measures, all_have);
+  validate(sweep.study.measures, all_have);
   validate_flexible(sweep.study.measures, all_have, sweep.cases.names);
 }
 
@@ -184,7 +184,7 @@ Sweep read_sweep(const fs::path& path, const Overrides& set) {
   Sweep out = cases_of(file, read_cases(section), path, set, step_limit(section));
   if (section.has("limit")) out.limits.seconds = section.at("limit").quantity(dimension::time, rule::positive);
   out.keep = read_curves(file);
-  judge_measures(out);
+  validate_measures(out);
   return out;
 }
 

@@ -88,7 +88,7 @@ void validate_measures(const CaseSource& source, const TradePlan& plan, const st
     for (const AxisValue& v : axis.values)
       for (const auto& [path, text] : v.set) varied.push_back(path);
   const Scene scene = common_scene(source);
-  judge(measures, scene);
+  validate(measures, scene);
   validate_flexible(measures, scene, varied);
 }
 

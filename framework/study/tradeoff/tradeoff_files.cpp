@@ -34,12 +34,6 @@ const char* role(const TradeReport& r, std::size_t i) {
   return r.recommended == i ? "recommended" : r.points[i].front ? "front" : r.points[i].dominated ? "dominated" : "";
 }
 
-std::string number(double x) {
-  std::string s;
-  append_number(s, x);
-  return s;
-}
-
 Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 Json overrides_json(const Overrides& set) {
@@ -117,12 +111,14 @@ std::string tradeoff_csv(const TradeReport& r) {
     out += std::to_string(i);
     for (std::size_t a = 0; a < r.plan.axes.size(); ++a) out += "," + csv_field(label(r, p, a));
     out += "," + csv_field(p.status);
-    for (const double x : {p.time, p.least, p.most}) out += "," + (ran ? number(x) : "");
+    for (const double x : {p.time, p.least, p.most}) out += "," + (ran ? number_exactly(x) : "");
     out += "," + std::to_string(p.times.size()) + "," +
-           (ran ? number(p.build) + "," + std::to_string(p.steps) + "," + std::to_string(p.evaluations) : ",,");
+           (ran ? number_exactly(p.build) + "," + std::to_string(p.steps) + "," + std::to_string(p.evaluations) : ",,");
     for (std::size_t q = 0; q < r.quantities.size(); ++q)
-      out += "," + number(p.values[q]) + "," + number(p.errors[q]) + "," + number(p.warnings_of[q]) + "," + number(p.model[q]);
-    out += "," + (p.usable ? number(p.error) + "," + number(p.warning) : ",") + "," + role(r, i) + "," + csv_field(p.reason) + "\n";
+      out += "," + number_exactly(p.values[q]) + "," + number_exactly(p.errors[q]) + "," + number_exactly(p.warnings_of[q]) + "," +
+             number_exactly(p.model[q]);
+    out += "," + (p.usable ? number_exactly(p.error) + "," + number_exactly(p.warning) : ",") + "," + role(r, i) + "," +
+           csv_field(p.reason) + "\n";
   }
   return out;
 }

@@ -338,13 +338,13 @@ class Search {
       s = printed(
           "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them diverge %.2g-fold each second until they "
           "have nothing in common; single runs spread by %.2g %%. "
-          "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
+          "It is compared by its mean over an ensemble, known to %.2g %% (standard error); %s",
           std::exp(std::min(r.rate, 600.0)), 100 * r.spread / r.scale, share, chaos_words_.c_str());
       if (r.rate > 50)
         s = printed(
             "chaotic: runs at ever finer tolerances do not converge, and the motions of two of them diverge by a factor e in %.2g s until "
             "they have nothing in common; single runs spread by %.2g %%. "
-            "It is judged by its mean over an ensemble, known to %.2g %% (standard error); %s",
+            "It is compared by its mean over an ensemble, known to %.2g %% (standard error); %s",
             1 / r.rate, 100 * r.spread / r.scale, share, chaos_words_.c_str());
       r.words = s;
       return;

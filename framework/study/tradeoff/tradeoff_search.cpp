@@ -128,7 +128,7 @@ class Trade {
     p.usable = o.status == "finished" && whole;
     if (o.status == "finished" && !whole) p.reason = "a quantity has no value with this setting";
     if (p.usable && chaos_) average(p, limits);
-    judge(p);
+    compare(p);
   }
 
   std::vector<Sample> ensemble(const Overrides& set, const std::vector<double>& first, const CaseLimits& limits) {
@@ -169,10 +169,10 @@ class Trade {
       r.scale = largest;
     }
     for (TradePoint& p : points())
-      if (p.usable) judge(p);
+      if (p.usable) compare(p);
   }
 
-  void judge(TradePoint& p) {
+  void compare(TradePoint& p) {
     p.error = p.warning = 0;
     for (std::size_t q = 0; q < measures_.size(); ++q) {
       const QuantityReference& r = out_.reference.of[q];

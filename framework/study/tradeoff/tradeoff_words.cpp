@@ -5,6 +5,7 @@
 #include <map>
 
 #include "framework/common/printed.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -25,7 +26,7 @@ std::string stopped(std::string s) {
   return s + ".";
 }
 
-/// Is the reference accurate enough to judge settings?
+/// Is the reference accurate enough to compare settings with it?
 bool known(const TradeReport& r) { return r.warning() <= (r.plan.error > 0 ? r.plan.error : useful_warning); }
 
 void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
@@ -78,7 +79,7 @@ void say_wanted(const TradeReport& r, std::vector<std::string>& said) {
 void say_as_it_stands(const TradeReport& r, std::vector<std::string>& said) {
   const TradePoint& p = r.points.front();
   if (!p.usable) {
-    said.push_back(stopped("The scene as it stands was not judged: " + p.status + (p.reason.empty() ? "" : ", " + p.reason)));
+    said.push_back(stopped("The scene as it stands was not evaluated: " + p.status + (p.reason.empty() ? "" : ", " + p.reason)));
     return;
   }
   std::string s = "The scene as it stands takes " + cost_text(r, 0);
@@ -260,7 +261,7 @@ std::string cost_text(const TradeReport& r, std::size_t point) {
   return time_text(p.time) + " with an error " + (p.counted() > p.warning ? "of " : "") + error_text(p);
 }
 
-std::string settings_text(std::size_t n) { return printed("%zu setting%s", n, n == 1 ? "" : "s"); }
+std::string settings_text(std::size_t n) { return counted(n, "setting"); }
 
 std::string of_how_many(const TradeReport& r) {
   return r.ran() == r.listed() ? "" : printed(" of the %zu of %zu settings that ran", r.ran(), r.listed());
@@ -299,7 +300,7 @@ std::vector<std::string> answers_in_words(const TradeReport& r) {
     if (r.stopped) return said;
     const std::string more =
         r.reference.short_of_time && r.plan.budget > 0 ? ". More time would help: --budget " + duration_text(4 * r.plan.budget) : "";
-    said.assign({stopped("There is no reference to judge the settings by: " + stopped(r.reference.trouble) + more)});
+    said.assign({stopped("There is no reference to compare the settings with: " + stopped(r.reference.trouble) + more)});
     return said;
   }
   if (r.front.empty() || r.points.empty()) {

@@ -1,0 +1,60 @@
+#include "app/failure.h"
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "framework/scene/error.h"
+#include "meshes/limits.h"
+
+namespace pintle::app {
+
+namespace {
+
+/// Largest memory that the program has used.
+long most_megabytes() {
+  struct rusage used {};
+  ::getrusage(RUSAGE_SELF, &used);
+  return used.ru_maxrss >> 10;
+}
+
+int failed_with(const char* what, int exit) {
+  std::cerr << "pintle: " << what << "\n";
+  return exit;
+}
+
+}  // namespace
+
+void report_lack_of_memory() {
+  std::fprintf(stderr,
+               "pintle: there was not enough memory while %s (the program held %ld MB); end other programs, raise the limit (ulimit -v), "
+               "or make the model or its outputs smaller%s\n",
+               what_is_done(), most_megabytes(), where_results_are());
+}
+
+int report_failure() {
+  try {
+    throw;
+  } catch (const SceneError& e) {
+    return failed_with(e.what(), bad_scene);
+  } catch (const AssemblyError& e) {
+    return failed_with(e.what(), no_assembly);
+  } catch (const MeshingStopped&) {
+    return failed_with("stopped while a body was being meshed", stopped);
+  } catch (const std::bad_alloc&) {
+    report_lack_of_memory();
+    return trouble;
+  } catch (const std::exception& e) {
+    const bool says_where = std::strstr(e.what(), "the results are in") != nullptr;
+    std::cerr << "pintle: " << e.what() << (says_where ? "" : where_results_are()) << "\n";
+    return trouble;
+  }
+}
+
+}  // namespace pintle::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "framework/common/nearest.h"
+#include "framework/common/text.h"
+
+namespace pintle {
+
+/// Names in a message, of which a large scene can have any number: "a", "b" and "c"; of many the first and the number of the others:
+/// "a", "b", "c", "d" and 994 others. @param quotes  the names stand in quotes
+inline std::string some_of(const std::vector<std::string>& names, bool quotes = true) {
+  constexpr std::size_t most = 4;
+  const bool many = names.size() > most + 1;
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < (many ? most : names.size()); ++i) shown.push_back(quotes ? quoted(names[i]) : names[i]);
+  return many ? listed(shown, ",") + " and " + std::to_string(names.size() - most) + " others" : listed(shown, "and");
+}
+
+}  // namespace pintle
