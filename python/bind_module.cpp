@@ -86,6 +86,7 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_run(m);
   bind_questions(m);
+  bind_bodies(m);
   bind_simulation(m);
   bind_studies(m);
 }

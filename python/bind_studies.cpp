@@ -1,7 +1,15 @@
 // Studies: the many runs of a study file.
+#include <algorithm>
+
+#include "framework/common/file.h"
+#include "framework/common/library_threads.h"
+#include "framework/plots/tradeoff_plot.h"
 #include "framework/report/run_report.h"
 #include "framework/study/fit/fit.h"
+#include "framework/study/nonlinear/nonlinear.h"
+#include "framework/study/sensitivity/sensitivity.h"
 #include "framework/study/sweep/sweep.h"
+#include "framework/study/tradeoff/tradeoff_question.h"
 #include "python/bindings.h"
 
 namespace pintle::python {
@@ -55,11 +63,101 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
   return py::make_tuple(csv, json, met, file, best, point, measures);
 }
 
+/// Of the cases that did not run to their end, how many of how many and why the first; empty: all did.
+std::string lost_cases(const std::vector<Row>& rows) {
+  const auto lost = [](const Row& r) { return r.status != "finished"; };
+  const auto first = std::ranges::find_if(rows, lost);
+  if (first == rows.end()) return {};
+  return std::to_string(std::ranges::count_if(rows, lost)) + " of " + std::to_string(rows.size()) +
+         " cases did not run to their end, and no number counts them; case " + std::to_string(first->number) + ": " + first->status + ": " +
+         first->reason;
+}
+
+/// (sensitivity.csv, sensitivity.json, sweep.csv, a warning or "")
+py::tuple sensitivity(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
+  Watch watch;
+  std::string csv, json, cases, warning;
+  {
+    const py::gil_scoped_release free;
+    const SensitivityPlan plan = read_sensitivity(study, set);
+    SweepSettings settings;
+    settings.threads = threads;
+    settings.progress = [&](const SweepCount&) { return watch(); };
+    const SweepEnd end = run_sweep(plan.sweep, folder, settings);
+    if (end.whole) {
+      const std::vector<MeasureSensitivity> all = sensitivities(plan, end.rows);
+      csv = sensitivity_csv(plan, all), json = sensitivity_json(plan, all);
+      cases = sweep_csv(plan.sweep, end.rows), warning = lost_cases(end.rows);
+      write_synced(std::filesystem::path(folder) / "sensitivity.csv", csv);
+      write_synced(std::filesystem::path(folder) / "sensitivity.json", json);
+    }
+  }
+  watch.raise();
+  return py::make_tuple(csv, json, cases, warning);
+}
+
+/// (values.csv, what `pintle nonlinear --json` tells, section.csv, orbits.csv, lyapunov.csv), None where it was not asked for
+py::tuple nonlinear(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
+  Watch watch;
+  std::string values, json;
+  std::optional<std::string> section, orbits, exponents;
+  {
+    const py::gil_scoped_release free;
+    const Nonlinear what = read_nonlinear(study, set);
+    SweepSettings settings;
+    settings.threads = threads;
+    settings.progress = [&](const SweepCount&) { return watch(); };
+    const SweepEnd end = run_nonlinear(what, folder, settings);
+    if (end.whole) {
+      values = values_csv(what, end.rows), json = nonlinear_json(what, end.rows);
+      if (what.question.section) section = section_csv(what, end.rows);
+      if (what.question.cycle) orbits = orbits_csv(what, end.rows);
+      if (what.question.lyapunov) exponents = lyapunov_csv(what, end.rows);
+    }
+  }
+  watch.raise();
+  return py::make_tuple(values, json, section, orbits, exponents);
+}
+
+/// (tradeoff.csv, tradeoff.json, the report as text, the scene's file, its overrides for what is recommended or None)
+py::tuple tradeoff(const std::string& file, const std::optional<std::string>& folder, const Overrides& set, const TradeWishes& wishes) {
+  Watch watch;
+  std::string csv, json, text, scene;
+  std::optional<Overrides> recommended;
+  {
+    const py::gil_scoped_release free;
+    hold_library_threads();
+    const TradeQuestion question = read_trade_question(file, wishes, set);
+    TradeListener listener;
+    listener.go_on = [&] { return watch(); };
+    const TradeReport report = run_tradeoff(question, listener);
+    csv = tradeoff_csv(report), json = tradeoff_json(report), text = tradeoff_text(report), scene = question.scene.file.string();
+    if (report.recommended) {
+      recommended = question.scene.common;
+      const Overrides& own = report.points[*report.recommended].set;
+      recommended->insert(recommended->end(), own.begin(), own.end());
+    }
+    if (folder) {
+      std::filesystem::create_directories(*folder);
+      write_tradeoff(*folder, *folder, question.scene, report);
+      write_text(std::filesystem::path(*folder) / "tradeoff.svg", tradeoff_svg(report));
+    }
+  }
+  watch.raise();
+  return py::make_tuple(csv, json, text, scene, recommended);
+}
+
 }  // namespace
 
 void bind_studies(py::module_& m) {
   m.def("sweep", &sweep);
   m.def("fit", &fit);
+  m.def("sensitivity", &sensitivity);
+  m.def("nonlinear", &nonlinear);
+  m.def("tradeoff", [](const std::string& file, const std::optional<std::string>& folder, const Overrides& set,
+                       std::vector<std::string> quantities, std::string error, std::string time, std::string budget, int repeats) {
+    return tradeoff(file, folder, set, {std::move(quantities), std::move(error), std::move(time), std::move(budget), repeats, ""});
+  });
   m.def("report", [](const std::string& directory) {
     const py::gil_scoped_release free;
     return report_page(directory);

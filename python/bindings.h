@@ -96,6 +96,7 @@ void bind_errors(py::module_&);
 void bind_scene(py::module_&);
 void bind_run(py::module_&);
 void bind_questions(py::module_&);
+void bind_bodies(py::module_&);
 void bind_simulation(py::module_&);
 void bind_studies(py::module_&);
 

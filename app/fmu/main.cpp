@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
   command.add_option("-o,--out", out, "the unit to write; one that is there is replaced (default: SCENE.fmu here)")->type_name("FILE.fmu");
   command
       .add_option("--input", order.inputs,
-                  "a state of the scene whose rate is 0, for the importer to set; may be repeated (default: all of them)")
+                  "a state of the scene whose rate is 0, for the importer to set; may be repeated (default: all that no event of the scene "
+                  "sets)")
       ->allow_extra_args(false)
       ->type_name("STATE");
   command

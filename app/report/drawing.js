@@ -44,11 +44,11 @@ function stroke(stage, colour, width, dash = []) {
   context.setLineDash([]);
 }
 
-function fill(stage, colour, opacity) {
+function fill(stage, colour, opacity, rule = "nonzero") {
   const {context} = stage;
   context.globalAlpha = opacity;
   context.fillStyle = colour;
-  context.fill();
+  context.fill(rule);
   context.globalAlpha = 1;
 }
 
@@ -159,48 +159,63 @@ function drawMesh(stage, mesh, pose, colour) {
   mesh.bend(pose, stage.deformation);
   const {context} = stage;
   const at = new Float64Array(mesh.world.length);
-  for (let p = 0; p < mesh.count; ++p) [at[2 * p], at[2 * p + 1]] = stage.px({x: mesh.world[2 * p], y: mesh.world[2 * p + 1]});
+  for (let p = 0; p < at.length; p += 2) {
+    at[p] = stage.width / 2 + (mesh.world[p] - stage.looked.x) * stage.scale;
+    at[p + 1] = stage.height / 2 - (mesh.world[p + 1] - stage.looked.y) * stage.scale;
+  }
   if (stage.show.stress) {
     mesh.stress(pose.eta);
     fillByStress(stage, mesh, at);
+  } else if (mesh.loops) {
+    context.beginPath();
+    for (const loop of mesh.loops) traceLoop(context, loop, at);
+    fill(stage, colour, 0.3, "evenodd");
   } else {
     context.beginPath();
-    for (let k = 0; k < mesh.triangles.length; k += 3) traceTriangle(context, mesh.triangles, k, at);
+    for (let k = 0; k < mesh.triangles.length; k += 3) traceTriangle(context, mesh.triangles, k, at, 0);
     fill(stage, colour, 0.3);
   }
   context.beginPath();
   for (let k = 0; k < mesh.rim.length; k += 2) {
-    const [a, b] = [mesh.rim[k], mesh.rim[k + 1]];
-    context.moveTo(at[2 * a], at[2 * a + 1]);
-    context.lineTo(at[2 * b], at[2 * b + 1]);
+    const [a, b] = [2 * mesh.rim[k], 2 * mesh.rim[k + 1]];
+    context.moveTo(at[a], at[a + 1]);
+    context.lineTo(at[b], at[b + 1]);
   }
   stroke(stage, stage.show.stress ? stage.colours.ink : colour, stage.show.stress ? 0.8 : 1.5);
 }
 
-function traceTriangle(context, triangles, k, at) {
-  const [a, b, c] = [triangles[k], triangles[k + 1], triangles[k + 2]];
-  context.moveTo(at[2 * a], at[2 * a + 1]);
-  context.lineTo(at[2 * b], at[2 * b + 1]);
-  context.lineTo(at[2 * c], at[2 * c + 1]);
+function traceLoop(context, loop, at) {
+  context.moveTo(at[2 * loop[0]], at[2 * loop[0] + 1]);
+  for (let k = 1; k < loop.length; ++k) context.lineTo(at[2 * loop[k]], at[2 * loop[k] + 1]);
   context.closePath();
 }
 
-/// Triangles of one colour are filled together.
+/// A triangle whose corners are so many pixels further from its middle.
+function traceTriangle(context, triangles, k, at, more) {
+  const a = 2 * triangles[k], b = 2 * triangles[k + 1], c = 2 * triangles[k + 2];
+  const x = (at[a] + at[b] + at[c]) / 3, y = (at[a + 1] + at[b + 1] + at[c + 1]) / 3;
+  const away = (p) => 1 + more / (Math.sqrt((at[p] - x) ** 2 + (at[p + 1] - y) ** 2) || 1);
+  const fa = away(a), fb = away(b), fc = away(c);
+  context.moveTo(x + fa * (at[a] - x), y + fa * (at[a + 1] - y));
+  context.lineTo(x + fb * (at[b] - x), y + fb * (at[b + 1] - y));
+  context.lineTo(x + fc * (at[c] - x), y + fc * (at[c + 1] - y));
+}
+
+/// Triangles of one colour are filled together, each a little larger, so that there are no gaps between neighbours.
 function fillByStress(stage, {triangles, mises}, at) {
   const {context} = stage;
-  const groups = new Map();
+  const groups = Array.from({length: scaleSteps}, () => []);
+  const steps = stage.greatestStress > 0 ? (scaleSteps - 1) / (3 * stage.greatestStress) : 0;
   for (let k = 0; k < triangles.length; k += 3) {
-    const mean = (mises[triangles[k]] + mises[triangles[k + 1]] + mises[triangles[k + 2]]) / 3;
-    const colour = scaleColour(stage.greatestStress > 0 ? mean / stage.greatestStress : 0);
-    if (!groups.has(colour)) groups.set(colour, []);
-    groups.get(colour).push(k);
+    const sum = mises[triangles[k]] + mises[triangles[k + 1]] + mises[triangles[k + 2]];
+    groups[Math.min(Math.round(steps * sum), scaleSteps - 1)].push(k);
   }
-  for (const [colour, members] of groups) {
+  groups.forEach((members, step) => {
+    if (members.length === 0) return;
     context.beginPath();
-    for (const k of members) traceTriangle(context, triangles, k, at);
-    fill(stage, colour, 1);
-    stroke(stage, colour, 0.7);  // no gaps between neighbours
-  }
+    for (const k of members) traceTriangle(context, triangles, k, at, 0.7);
+    fill(stage, scaleColours[step], 1);
+  });
 }
 
 // Joints and clearances

@@ -120,6 +120,7 @@ function reportShown(page) {
   const marks = (box) => [...box.querySelectorAll(".happening")].map(({title, style}) => [title, style.left]);
   tellShown(shown, {
     rims: page.stage.model.wheels.map((wheel) => isInked(page.stage, wheel)),
+    outlines: page.stage.meshes.map((mesh) => mesh?.loops?.length ?? 0),
     "scrubber marks": marks(byId("scrub-box")),
     "plot marks": panels.filter((panel) => !panel.against).map((panel) => marks(panel.area)),
     steps: [-1, -1, -1, 1].map((way) => (page.actions?.step(way), clock.time)),

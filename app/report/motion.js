@@ -109,6 +109,7 @@ class BentMesh {
     this.count = this.points.length / 2;
     this.world = new Float64Array(this.points.length);
     this.mises = new Float64Array(this.count);
+    this.loops = loopsOf(this.rim);
   }
 
   /// Puts the drawn points into `world`, the deformation so many times as large.
@@ -157,4 +158,24 @@ class BentMesh {
     }
     return greatest;
   }
+}
+
+/// Lines, pairs of points, one after another as closed loops; null where some end is loose.
+function loopsOf(lines) {
+  const at = new Map();  // the lines of a point
+  for (let k = 0; k < lines.length; ++k) at.set(lines[k], [...(at.get(lines[k]) ?? []), k >> 1]);
+  if ([...at.values()].some((own) => own.length % 2 === 1)) return null;
+  const used = new Uint8Array(lines.length / 2);
+  const loops = [];
+  for (let first = 0; first < used.length; ++first) {
+    const loop = [];
+    let point = lines[2 * first];
+    for (let line = first; line !== undefined && !used[line]; line = at.get(point).find((other) => !used[other])) {
+      used[line] = 1;
+      loop.push(point);
+      point = lines[2 * line] === point ? lines[2 * line + 1] : lines[2 * line];
+    }
+    if (loop.length > 0) loops.push(loop);
+  }
+  return loops;
 }

@@ -15,13 +15,18 @@
 
 from ._core import version as __version__
 from .errors import AssemblyError, Error, ModelWarning, RunError, SceneError
-from .results import BodyModes, Effort, Event, Impact, InverseResult, LinearMode, Modes, Rest, Result, Simulation, SmallMotion
+from .results import (
+    BodyCase, BodyModes, Effort, Event, Impact, InverseResult, LinearMode, Mesh, Modes, Rest, Result, Simulation, SmallMotion, StaticCase
+)
 from .scene import Scene, load, parse, trust
-from .studies import FitResult, SweepResult, fit, sweep
-from .tables import Table
+from .studies import (
+    FitResult, NonlinearResult, SensitivityResult, SweepResult, TradeoffResult, fit, nonlinear, sensitivity, sweep, tradeoff
+)
+from .tables import Table, TextTable
 
 __all__ = [
-    "AssemblyError", "BodyModes", "Effort", "Error", "Event", "FitResult", "Impact", "InverseResult", "LinearMode", "ModelWarning",
-    "Modes", "Rest", "Result", "RunError", "Scene", "SceneError", "Simulation", "SmallMotion", "SweepResult", "Table", "fit", "load",
-    "parse", "sweep", "trust",
+    "AssemblyError", "BodyCase", "BodyModes", "Effort", "Error", "Event", "FitResult", "Impact", "InverseResult", "LinearMode", "Mesh",
+    "ModelWarning", "Modes", "NonlinearResult", "Rest", "Result", "RunError", "Scene", "SceneError", "SensitivityResult", "Simulation",
+    "SmallMotion", "StaticCase", "SweepResult", "Table", "TextTable", "TradeoffResult", "fit", "load", "nonlinear", "parse", "sensitivity",
+    "sweep", "tradeoff", "trust",
 ]

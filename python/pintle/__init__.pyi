@@ -45,6 +45,11 @@ class Table:
     def frame(self) -> Any: ...
     def plot(self, *names: str, against: str | None = None, axes: Any = None) -> Any: ...
 
+class TextTable(Table):
+    words: dict[str, list[str]]
+    def __init__(self, text: str) -> None: ...
+    def frame(self) -> Any: ...
+
 class Impact(NamedTuple):
     contact: str
     begin: float
@@ -155,6 +160,29 @@ class Modes:
     @property
     def frequencies(self) -> Array: ...
 
+class BodyCase(Table):
+    body: str
+    points: TextTable
+    section_forces: TextTable | None
+    def __init__(self, name: str, table: Any, points: str, section_forces: str | None) -> None: ...
+
+class StaticCase:
+    bodies: dict[str, BodyCase]
+    contacts: TextTable | None
+    warnings: list[str]
+    def __getitem__(self, body: str) -> BodyCase: ...
+    @property
+    def info(self) -> dict[str, Any]: ...
+
+class Mesh:
+    body: str
+    nodes: Array
+    cells: dict[str, numpy.typing.NDArray[numpy.int32]]
+    groups: dict[str, numpy.typing.NDArray[numpy.int32]]
+    warnings: list[str]
+    @property
+    def info(self) -> dict[str, Any]: ...
+
 class Simulation:
     @property
     def t(self) -> float: ...
@@ -181,23 +209,54 @@ class Scene:
     def statics(self, at: float = 0.0) -> Rest: ...
     def linearize(self, at: float | None = None, at_rest: bool = False) -> SmallMotion: ...
     def modes(self, body: str = "", count: int = 6) -> Modes: ...
+    def static(self, body: str = "") -> StaticCase: ...
+    def mesh(self, body: str = "") -> Mesh: ...
     def simulation(self) -> Simulation: ...
 
-class SweepResult(Table):
-    words: dict[str, list[str]]
+class SweepResult(TextTable):
     info: dict[str, Any]
     def __init__(self, text: str, info: str) -> None: ...
 
-class FitResult(Table):
-    words: dict[str, list[str]]
+class FitResult(TextTable):
     info: dict[str, Any]
     met: bool
     point: dict[str, float]
     measures: dict[str, float]
     scene: Scene | None
 
+class SensitivityResult(TextTable):
+    info: dict[str, Any]
+    cases: TextTable
+    warning: str
+    @property
+    def derivatives(self) -> dict[str, dict[str, float]]: ...
+
+class NonlinearResult(TextTable):
+    info: dict[str, Any]
+    section: TextTable | None
+    orbits: TextTable | None
+    lyapunov: TextTable | None
+
+class TradeoffResult(TextTable):
+    info: dict[str, Any]
+    told: str
+    recommended: int | None
+    scene: Scene | None
+
 def load(file: Path, set: Values | None = None) -> Scene: ...
 def parse(scene: str | Values, set: Values | None = None, folder: Path = ".") -> Scene: ...
 def sweep(study: Path | Values, out: Path | None = None, set: Values | None = None, threads: int | None = None) -> SweepResult: ...
 def fit(study: Path | Values, out: Path | None = None, set: Values | None = None, threads: int | None = None) -> FitResult: ...
+def sensitivity(study: Path | Values, out: Path | None = None, set: Values | None = None, threads: int | None = None) -> SensitivityResult: ...
+def nonlinear(study: Path | Values, out: Path | None = None, set: Values | None = None, threads: int | None = None) -> NonlinearResult: ...
+def tradeoff(
+    study: Path | Values,
+    quantities: str | Sequence[str] = (),
+    error: float | str | None = None,
+    time: float | str | None = None,
+    budget: float | str | None = None,
+    repeats: int | None = None,
+    out: Path | None = None,
+    set: Values | None = None,
+) -> TradeoffResult: ...
 def trust(folders: Path | Sequence[Path] = (), geo: bool = False) -> None: ...

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from . import _core
 from .errors import ModelWarning, RunError
-from .tables import Headed, Table
+from .tables import Headed, Table, TextTable
 
 
 class Impact(NamedTuple):
@@ -261,6 +261,55 @@ class Modes:
 
     def __repr__(self):
         return f"{self.body}: " + ", ".join(f"{f:.6g}" for f in self.frequencies) + " Hz"
+
+
+class BodyCase(Table):
+    """A body under its static load: a row for each point of it, with displacement and stresses."""
+
+    def __init__(self, name, table, points, section_forces):
+        super().__init__(*table)
+        self.body = name
+        self.points = TextTable(points)
+        self.section_forces = None if section_forces is None else TextTable(section_forces)
+
+
+class StaticCase:
+    """The static case of one body, or of several in contact."""
+
+    def __init__(self, core):
+        self._core = core
+        self.bodies = {one[0]: BodyCase(*one) for one in core.bodies}
+        self.contacts = None if core.contacts is None else TextTable(core.contacts)
+        self.warnings = core.warnings
+
+    def __getitem__(self, body):
+        return self.bodies[body]
+
+    @property
+    def info(self):
+        """What static.json holds."""
+        return json.loads(self._core.info)
+
+    def __repr__(self):
+        return "\n".join(f"{name}: greatest von Mises stress {b['von Mises'].max() * 1e-6:.6g} MPa" for name, b in self.bodies.items())
+
+
+class Mesh:
+    """The mesh of one body: `nodes` [m], the nodes of cells by their shape, and those of groups by name, counted from 0."""
+
+    def __init__(self, core):
+        self._core = core
+        self.body, self.nodes, self.groups = core.body, core.nodes, core.groups
+        self.cells = dict(core.cells)
+        self.warnings = core.warnings
+
+    @property
+    def info(self):
+        """What mesh.json holds."""
+        return json.loads(self._core.info)
+
+    def __repr__(self):
+        return f"{self.body}: {len(self.nodes)} nodes, " + ", ".join(f"{len(c)} {shape}" for shape, c in self.cells.items())
 
 
 class Simulation(Headed):

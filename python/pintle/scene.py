@@ -5,7 +5,7 @@ import os
 
 from . import _core
 from .errors import RunError
-from .results import InverseResult, Modes, Rest, Result, Simulation, SmallMotion, checked, warn
+from .results import InverseResult, Mesh, Modes, Rest, Result, Simulation, SmallMotion, StaticCase, checked, warn
 
 
 def plain(value):
@@ -94,6 +94,18 @@ class Scene:
     def modes(self, body="", count=6):
         """Natural modes of one body of elements; the name may be omitted if there is only one."""
         return Modes(_core.modes(self._core, body, count))
+
+    def static(self, body=""):
+        """The static load case of one body of elements, or of several in contact. Of a whole mechanism: `statics`."""
+        case = StaticCase(_core.static_case(self._core, body))
+        warn(case.warnings)
+        return case
+
+    def mesh(self, body=""):
+        """The mesh of one body of elements; its name may be left out where there is one alone."""
+        mesh = Mesh(_core.mesh(self._core, body))
+        warn(mesh.warnings)
+        return mesh
 
     def simulation(self):
         """A run step by step."""

@@ -1,35 +1,20 @@
 """Studies: the many runs of a study file."""
 
-import csv
-import io
 import json
 import os
 import tempfile
+import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy
-
 from . import _core
+from .errors import ModelWarning
 from .scene import Scene, overrides, plain
-from .tables import Table, split
+from .tables import TextTable, split
 
 
 def _threads(threads):
     return threads or os.cpu_count() or 1
-
-
-def _table(text):
-    """Columns of numbers as a Table, columns of text by name; empty fields are NaN."""
-    header, *rows = csv.reader(io.StringIO(text))
-    numbers, words = {}, {}
-    for heading, column in zip(header, zip(*rows) if rows else [()] * len(header)):
-        try:
-            numbers[heading] = [float(x) if x else numpy.nan for x in column]
-        except ValueError:
-            words[split(heading)[0]] = list(column)
-    data = numpy.array(list(numbers.values())).T.reshape(len(rows), len(numbers))
-    return Table(list(numbers), data), words
 
 
 @contextmanager
@@ -45,26 +30,66 @@ def _files(study, out):
         yield os.fspath(file), str(Path(place) / "out" if out is None else out)
 
 
-class SweepResult(Table):
+class SweepResult(TextTable):
     """A row for each case; columns are the varied parameters and the measures."""
 
     def __init__(self, text, info):
-        table, self.words = _table(text)
-        super().__init__([f"{n} [{table.unit(n)}]" if table.unit(n) else n for n in table.names], table.data)
+        super().__init__(text)
         self.info = json.loads(info)
 
 
-class FitResult(Table):
+class FitResult(TextTable):
     """A row for each case that was computed."""
 
     def __init__(self, text, info, met, file, best, point, measures):
-        table, self.words = _table(text)
-        super().__init__([f"{n} [{table.unit(n)}]" if table.unit(n) else n for n in table.names], table.data)
+        super().__init__(text)
         self.info = json.loads(info)
         self.met = met
         self.point = {split(name)[0]: value for name, value in point}
         self.measures = {split(name)[0]: value for name, value in measures}
         self.scene = None if file is None else Scene(_core.Scene.of_file(file, best))
+
+
+class SensitivityResult(TextTable):
+    """A row for each measure and parameter; `cases` is the table of what was run."""
+
+    def __init__(self, text, info, cases, warning):
+        super().__init__(text)
+        self.info = json.loads(info)
+        self.cases = TextTable(cases)
+        self.warning = warning
+
+    @property
+    def derivatives(self):
+        """{measure: {parameter: derivative}}, in SI."""
+        out = {}
+        for measure, parameter, value in zip(self.words["measure"], self.words["parameter"], self["derivative"]):
+            out.setdefault(split(measure)[0], {})[split(parameter)[0]] = float(value)
+        return out
+
+
+class NonlinearResult(TextTable):
+    """A row for each value of the parameter. Tables of the returns, of periodic orbits and of Lyapunov exponents, None where the study
+    does not ask for them."""
+
+    def __init__(self, text, info, section, orbits, lyapunov):
+        super().__init__(text)
+        self.info = json.loads(info)
+        self.section, self.orbits, self.lyapunov = (None if t is None else TextTable(t) for t in (section, orbits, lyapunov))
+
+
+class TradeoffResult(TextTable):
+    """A row for each setting, the unchanged scene first; `scene` is the scene with the recommended one, None if none is recommended."""
+
+    def __init__(self, text, info, told, file, recommended):
+        super().__init__(text)
+        self.info = json.loads(info)
+        self.told = told
+        self.recommended = self.info["recommended"]
+        self.scene = None if recommended is None else Scene(_core.Scene.of_file(file, recommended))
+
+    def __repr__(self):
+        return self.told.rstrip()
 
 
 def sweep(study, out=None, set=None, threads=None):
@@ -77,3 +102,35 @@ def fit(study, out=None, set=None, threads=None):
     """Finds parameters that reach the goal of a study, given as a file or a dict; `scene` of the result is the scene with them, or None if none were found."""
     with _files(study, out) as (file, folder):
         return FitResult(*_core.fit(file, folder, overrides(set), _threads(threads)))
+
+
+def sensitivity(study, out=None, set=None, threads=None):
+    """Finds how measures depend on parameters and their tolerances, as a study, a file or a dict, asks for it. `out` as of `sweep`."""
+    with _files(study, out) as (file, folder):
+        result = SensitivityResult(*_core.sensitivity(file, folder, overrides(set), _threads(threads)))
+    if result.warning:
+        warnings.warn(result.warning, ModelWarning, stacklevel=2)
+    return result
+
+
+def nonlinear(study, out=None, set=None, threads=None):
+    """Finds Poincaré sections, periodic orbits and Lyapunov exponents, as a study, a file or a dict, asks for them. `out` as of `sweep`."""
+    with _files(study, out) as (file, folder):
+        return NonlinearResult(*_core.nonlinear(file, folder, overrides(set), _threads(threads)))
+
+
+def _asked(value, unit=""):
+    return "" if value is None else value if isinstance(value, str) else f"{value!r}{unit}"
+
+
+def tradeoff(study, quantities=(), error=None, time=None, budget=None, repeats=None, out=None, set=None):
+    """Measures error against time over settings of fidelity, and recommends one.
+
+    `study`: a study, a file or a dict, or a scene file with the `quantities` that matter. `error`: the one that is wanted, 0.01 or "1%";
+    `time`, of a run, and `budget`, of all of them: [s] or "10 min"; `repeats`: timed runs of each setting. `out`: a new folder for the files of `pintle tradeoff`."""
+    if out is not None and Path(out).exists():
+        raise FileExistsError(f"{out} already exists; name another folder, or remove it")
+    with _files(study, out) as (file, folder):
+        names = [quantities] if isinstance(quantities, str) else list(quantities)
+        wishes = names, _asked(error), _asked(time, " s"), _asked(budget, " s"), repeats or 0
+        return TradeoffResult(*_core.tradeoff(file, None if out is None else folder, overrides(set), *wishes))

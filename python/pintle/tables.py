@@ -1,6 +1,10 @@
 """Tables of numbers whose columns have names and units."""
 
+import csv
 import difflib
+import io
+
+import numpy
 
 
 def split(heading):
@@ -114,3 +118,26 @@ class Table(Headed):
         if len(self) > 10:
             rows.insert(5, f"<td>… {len(self) - 8} more</td>")
         return f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
+
+
+class TextTable(Table):
+    """A table that holds words too: columns of numbers as of any table, empty fields being NaN; `words` has the others by name."""
+
+    def __init__(self, text):
+        header, *rows = csv.reader(io.StringIO(text))
+        numbers, self.words, self._order = {}, {}, []
+        for heading, column in zip(header, zip(*rows) if rows else [()] * len(header)):
+            self._order.append(split(heading)[0])
+            try:
+                numbers[heading] = [float(x) if x else numpy.nan for x in column]
+            except ValueError:
+                self.words[self._order[-1]] = list(column)
+        super().__init__(list(numbers), numpy.array(list(numbers.values())).T.reshape(len(rows), len(numbers)))
+
+    def frame(self):
+        """A pandas DataFrame with the words too, in the order of the file; its `attrs["units"]` has the units of the numbers by column."""
+        frame = super().frame()
+        for place, name in enumerate(self._order):
+            if name in self.words:
+                frame.insert(place, name, self.words[name])
+        return frame

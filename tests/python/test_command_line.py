@@ -19,6 +19,24 @@ nightly = os.environ.get("PINTLE_NIGHTLY") == "1"
 short_runs = """belt_drive box_and_ramp breaker cam_roller engine_single latch motor_flywheel pendulum pid_arm
     planetary_gearbox shear_pin slider_crank_clearance stage_microslip stick_slip woodpecker""".split()
 
+measured_times = ("time", "least time", "most time", "build", "role")
+few_cases = """
+scene: SCENE
+analysis: linearize
+equilibrium: true
+measure: {frequency: frequency of mode 2, damping: damping of mode 2}
+sensitivity:
+  parameters: {forces.rubber at rest.stiffness: {uniform: 2 N/mm}, bodies.machine.rigid.mass: {normal: 0.1 kg}}
+  corners: true
+  monte carlo: {count: 20}
+  sobol: {count: 16}
+"""
+
+
+def without_times(told):
+    """Also of each body of a static case."""
+    return {key: without_times(value) if isinstance(value, dict) else value for key, value in told.items() if key != "timings [s]"}
+
 
 def numbers(file):
     with open(file, newline="") as text:
@@ -89,9 +107,9 @@ class CommandLine(unittest.TestCase):
     def test_all_other_questions(self):
         """Both answer alike, or neither answers."""
         asked = {"statics": self.rests_alike, "kinematics": self.moves_alike, "inverse": self.driven_alike,
-                 "linearize": self.small_motion_alike, "modes": self.swings_alike}
+                 "linearize": self.small_motion_alike, "modes": self.swings_alike, "static": self.bends_alike, "mesh": self.meshed_alike}
         answered = dict.fromkeys(asked, 0)
-        for file in sorted(examples.glob("*.yaml")):
+        for file in [*sorted(examples.glob("*.yaml")), *sorted((examples / "verification").glob("*.yaml"))]:
             for question, alike in asked.items():
                 with self.subTest(example=file.stem, question=question):
                     done = self.ask_program(question, file)
@@ -150,15 +168,100 @@ class CommandLine(unittest.TestCase):
         modes = pintle.load(file).modes(count=3)
         self.assertEqual([m["frequency [Hz]"] for m in told["natural"]["modes"]], list(modes.frequencies))
 
+    def test_static(self):
+        for name in ("static_bracket", "static_pin", "verification/beams_static"):
+            with self.subTest(example=name):
+                self.bends_alike(examples / f"{name}.yaml")
+
+    def bends_alike(self, file):
+        out, case = self.by_program("static", file), pintle.load(file).static()
+        told = json.loads((out / "static.json").read_text())
+        for name, body in case.bodies.items():
+            own, folder = (told["bodies"][name], out / name) if case.contacts else (told, out)
+            self.assertEqual(body["von Mises"].max(), own["greatest von Mises stress"]["value [Pa]"])
+            at = body.data[body["von Mises"].argmax(), :2]
+            self.assertEqual(list(at), own["greatest von Mises stress"]["at [m]"])
+            self.same_words(body.points, folder / "points.csv")
+            self.assertEqual(body.section_forces is not None, (folder / "section_forces.csv").exists())
+            if body.section_forces:
+                self.same_words(body.section_forces, folder / "section_forces.csv")
+        if case.contacts:
+            self.same_words(case.contacts, out / "contacts.csv")
+        self.assertEqual(without_times(case.info), without_times(told))
+
+    def test_mesh(self):
+        self.meshed_alike(examples / "static_bracket.yaml")
+
+    def meshed_alike(self, file):
+        told = json.loads((self.by_program("mesh", file) / "mesh.json").read_text())
+        mesh = pintle.load(file).mesh()
+        self.assertEqual(without_times(mesh.info), without_times(told))
+        self.assertEqual((len(mesh.nodes), sum(map(len, mesh.cells.values()))), (told["nodes"], told["cells"]))
+        self.assertEqual({name: len(nodes) for name, nodes in mesh.groups.items()}, told["nodes of each group"])
+        self.assertEqual(set(numpy.concatenate([c.ravel() for c in mesh.cells.values()])), set(range(len(mesh.nodes))))
+
+    def same_words(self, table, file, left_out=()):
+        """Numbers to the bit and words; without columns whose names start so."""
+        with open(file, newline="") as text:
+            header, *rows = csv.reader(text)
+        self.assertGreater(len(rows), 0, file)
+        self.assertEqual(len(table), len(rows))
+        for heading, column in zip(header, zip(*rows)):
+            if heading.startswith(left_out):
+                continue
+            name = heading.rpartition(" [")[0] or heading
+            if name in table.words:
+                self.assertEqual(table.words[name], list(column))
+            else:
+                numpy.testing.assert_array_equal(table[heading], [float(x) if x else numpy.nan for x in column])
+
+    def studied_alike(self, question, file, set=None):
+        options = [part for name, value in (set or {}).items() for part in ("--set", f"{name}={value}")]
+        out, found = self.by_program(question, file, *options), getattr(pintle, question)(file, set=set)
+        if question == "nonlinear":
+            self.same_words(found, out / "values.csv")
+            for part in ("section", "orbits", "lyapunov"):
+                self.assertEqual(getattr(found, part) is not None, (out / f"{part}.csv").exists(), part)
+                if getattr(found, part) is not None:
+                    self.same_words(getattr(found, part), out / f"{part}.csv")
+            return
+        self.same_words(found, out / f"{question}.csv", measured_times)
+        if question == "sensitivity":
+            self.same_words(found.cases, out / "sweep.csv", measured_times)
+        if question == "tradeoff":
+            told = json.loads((out / "tradeoff.json").read_text())
+            self.assertEqual(found.info["reference"]["quantities"], told["reference"]["quantities"])
+
     def test_sweep(self):
-        file = examples / "studies" / "clearance.yaml"
-        with open(self.by_program("sweep", file) / "sweep.csv", newline="") as text:
-            rows = list(csv.DictReader(text))
-        sweep = pintle.sweep(file)
-        self.assertEqual(len(sweep), len(rows))
-        for name in sweep.names:
-            heading = f"{name} [{sweep.unit(name)}]" if sweep.unit(name) else name
-            numpy.testing.assert_array_equal(sweep[name], [float(row[heading] or "nan") for row in rows])
+        self.studied_alike("sweep", examples / "studies" / "clearance.yaml")
+
+    def test_fit(self):
+        self.studied_alike("fit", examples / "studies" / "fit_frequency.yaml")
+
+    def test_sensitivity(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        file = Path(place.name) / "study.yaml"
+        file.write_text(few_cases.replace("SCENE", str(examples / "rubber_mount.yaml")))
+        self.studied_alike("sensitivity", file)
+
+    def test_nonlinear(self):
+        self.studied_alike("nonlinear", examples / "studies" / "slider_crank_returns.yaml")
+
+    def test_tradeoff(self):
+        self.studied_alike("tradeoff", examples / "studies" / "trade_modes.yaml")
+
+    @unittest.skipUnless(nightly, "minutes")
+    def test_all_studies(self):
+        """But those with a budget of time: what they run depends on how fast it went."""
+        keys = {"sweep": "sweep", "fit": "fit", "sensitivity": "sensitivity", "section": "nonlinear", "tradeoff": "tradeoff"}
+        for file in sorted((examples / "studies").glob("*.yaml")):
+            lines = file.read_text().splitlines()
+            question = next(q for key, q in keys.items() if any(line.startswith(key + ":") for line in lines))
+            if any(line.startswith("  budget:") for line in lines):
+                continue
+            with self.subTest(study=file.stem):
+                self.studied_alike(question, file)
 
 
 if __name__ == "__main__":

@@ -93,6 +93,17 @@ class Tables(unittest.TestCase):
         self.assertEqual(len(frame), len(frame["t"]))
         self.assertEqual(frame["t"].iloc[-1], 2e-3)
 
+    def test_words_stand_beside_numbers(self):
+        table = pintle.TextTable("case,kind,x [m]\n1,a,0.5\n2,b,\n")
+        self.assertEqual((table.names, table.unit("x"), table.words), (["case", "x"], "m", {"kind": ["a", "b"]}))
+        numpy.testing.assert_array_equal(table["x"], [0.5, numpy.nan])
+
+    @unittest.skipUnless(is_there("pandas"), "pandas is not installed")
+    def test_a_frame_has_the_words_too(self):
+        frame = pintle.TextTable("case,kind,x [m]\n1,a,0.5\n2,b,\n").frame()
+        self.assertEqual((list(frame.columns), list(frame["kind"])), (["case", "kind", "x"], ["a", "b"]))
+        self.assertEqual(frame.attrs["units"]["x"], "m")
+
     @unittest.skipUnless(is_there("matplotlib"), "matplotlib is not installed")
     def test_a_plot_has_an_axis_for_each_unit(self):
         import matplotlib

@@ -79,6 +79,18 @@ INSTANTIATE_TEST_SUITE_P(Report, Browser, testing::Values("slider_crank_clearanc
   return file.substr(0, file.find('.'));
 });
 
+/// A plate with two bores is filled by its three outlines, not triangle by triangle, which takes ten times as long.
+TEST(BrowserShows, FillsAMeshedBodyByItsOutlines) {
+  if (!there_is_a_browser()) GTEST_SKIP() << "there is no chromium here; apt-get install chromium";
+  const Folder folder;
+  write_run(folder.path(), read_scene(fs::path(PINTLE_SOURCE_DIR) / "examples" / "four_bar_flexible.yaml", {{"run.until", "5 ms"}}));
+  std::ofstream(folder.path() / "report.html") << report_page(folder.path());
+  const Json page = shown_by_browser(folder, folder.path() / "report.html");
+  ASSERT_TRUE(page.is_object()) << "the page has told nothing";
+  EXPECT_TRUE(page["errors"].empty()) << page["errors"];
+  EXPECT_EQ(page["outlines"], Json::array({0, 3, 0}));
+}
+
 /// Two gears, and two events that come at a quarter and three quarters of the run.
 TEST(BrowserShows, WheelsAndStepsToTheEventsOfTheScene) {
   if (!there_is_a_browser()) GTEST_SKIP() << "there is no chromium here; apt-get install chromium";

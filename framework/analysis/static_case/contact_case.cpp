@@ -127,8 +127,6 @@ ContactCase solve_contact_case(const Scene& scene, const Bodies& bodies) {
   return out;
 }
 
-namespace {
-
 std::string contacts_csv(const ContactCase& c) {
   std::string out = "contact,x [m],y [m],along [rad or m],pressure [Pa],gap [m]\n";
   for (const ContactReport& r : c.contacts)
@@ -142,8 +140,6 @@ std::string contacts_csv(const ContactCase& c) {
     }
   return out;
 }
-
-}  // namespace
 
 std::string contact_json(const Scene& scene, const Bodies& bodies, const ContactCase& c) {
   OrderedJson out = {

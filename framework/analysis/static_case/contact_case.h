@@ -37,6 +37,7 @@ ContactCase solve_contact_case(const Scene&, const std::vector<const ElasticBody
 
 /// A folder for each body, with the files of `write_case`; contacts.csv; static.json.
 void write_contact_case(const std::filesystem::path&, const Scene&, const std::vector<const ElasticBody*>&, const ContactCase&);
+std::string contacts_csv(const ContactCase&);
 std::string contact_json(const Scene&, const std::vector<const ElasticBody*>&, const ContactCase&);
 
 }  // namespace pintle

@@ -11,8 +11,6 @@
 #include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/component/reduction/modal_model.h"
-#include "framework/drawing/body_drawing.h"
-#include "framework/drawing/vtk.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -36,18 +34,28 @@ Json head(const Scene& scene, const ElasticBody& e, const char* command) {
 
 Json scene_json(const Scene& scene) { return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false); }
 
-std::vector<Field> stress_fields(const Eigen::Matrix4Xd& s) {
+}  // namespace
+
+std::vector<Field> static_fields(const BodyDrawing& drawing, const StaticReport& r) {
+  const Eigen::Matrix4Xd s = drawing.stress(r.stress);
   Eigen::RowVectorXd mises(s.cols());
   Eigen::Matrix2Xd main(2, s.cols());
   for (Eigen::Index i = 0; i < s.cols(); ++i) {
     mises[i] = von_mises(s.col(i));
     main.col(i) = principal(s.col(i)).head<2>();
   }
-  return {{"von Mises [Pa]", mises},    {"principal 1 [Pa]", main.row(0)}, {"principal 2 [Pa]", main.row(1)}, {"stress xx [Pa]", s.row(0)},
-          {"stress yy [Pa]", s.row(1)}, {"stress xy [Pa]", s.row(2)},      {"stress zz [Pa]", s.row(3)}};
+  return {{"displacement [m]", drawing.displacement(r.solution.u)},
+          {"von Mises [Pa]", mises},
+          {"principal 1 [Pa]", main.row(0)},
+          {"principal 2 [Pa]", main.row(1)},
+          {"stress xx [Pa]", s.row(0)},
+          {"stress yy [Pa]", s.row(1)},
+          {"stress xy [Pa]", s.row(2)},
+          {"stress zz [Pa]", s.row(3)}};
 }
 
-std::string section_forces_csv(const ElasticBody& e, const Eigen::Matrix3Xd& forces) {
+std::string section_forces_csv(const ElasticBody& e, const StaticReport& r) {
+  const Eigen::Matrix3Xd& forces = r.stress.section_forces;
   std::string out = "element,end,x [m],y [m],N [N],V [N],M [N m]\n";
   const std::vector<int>& nodes = e.mesh.cells.front().nodes;
   for (Eigen::Index c = 0; c < forces.cols(); ++c) {
@@ -74,6 +82,8 @@ std::string points_csv(const StaticReport& r) {
   }
   return out;
 }
+
+namespace {
 
 /// Each support's share of the reactions; a degree of freedom held twice counts for the first.
 std::vector<SupportReaction> share(const ElasticBody& e, const std::vector<NamedSupport>& supports, Eigen::VectorXd reactions) {
@@ -170,11 +180,9 @@ std::string static_json(const Scene& scene, const ElasticBody& e, const StaticRe
 
 void write_case(const std::filesystem::path& directory, const Scene& scene, const ElasticBody& e, const StaticReport& r) {
   const BodyDrawing drawing(e);
-  std::vector<Field> fields = stress_fields(drawing.stress(r.stress));
-  fields.insert(fields.begin(), Field{"displacement [m]", drawing.displacement(r.solution.u)});
-  write_grid(directory / "static.vtu", drawing.points, drawing.cells, fields);
+  write_grid(directory / "static.vtu", drawing.points, drawing.cells, static_fields(drawing, r));
   write_text(directory / "points.csv", points_csv(r));
-  if (!e.plate()) write_text(directory / "section_forces.csv", section_forces_csv(e, r.stress.section_forces));
+  if (!e.plate()) write_text(directory / "section_forces.csv", section_forces_csv(e, r));
   write_text(directory / "static.json", static_json(scene, e, r));
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "framework/bodies/elastic_body.h"
+#include "framework/drawing/body_drawing.h"
+#include "framework/drawing/vtk.h"
 
 namespace pintle {
 
@@ -36,6 +38,12 @@ StaticReport solve_case(const Scene&, const ElasticBody&);
 
 /// Evaluates a solution, independently of how it was found.
 StaticReport report_of(const Scene&, const ElasticBody&, const std::vector<NamedSupport>&, const BodyLoad&, StaticSolution);
+
+/// At each point of the body's drawing: displacement, von Mises, principal stresses, stress components. What static.vtu holds.
+std::vector<Field> static_fields(const BodyDrawing&, const StaticReport&);
+std::string points_csv(const StaticReport&);
+/// @pre the body is of line elements
+std::string section_forces_csv(const ElasticBody&, const StaticReport&);
 
 /// static.vtu (displacement, stress components, von Mises, principal stresses), points.csv; for beams section_forces.csv; static.json
 void write_case(const std::filesystem::path& directory, const Scene&, const ElasticBody&, const StaticReport&);
