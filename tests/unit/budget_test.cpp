@@ -254,6 +254,32 @@ TEST(Budget, AStepTakesSixEvaluations) {
   }
 }
 
+// What is written is evaluated once, and projected onto the joints; inside the long steps of verner87 a step to the middle and twelve
+// evaluations come before the first row.
+TEST(Budget, ARowTakesOneEvaluation) {
+  constexpr int rows = 20, corrections = 3;
+  struct Pair {
+    const char* method;
+    long first;
+  };
+  for (const Pair& pair : {Pair{"rkf45", 0}, Pair{"dopri5", 0}, Pair{"verner87", 13 + 12}}) {
+    Scene scene = slider_crank();
+    scene.run.method = pair.method;
+    const Model model = build(scene);
+    Integrator run(model.system, model.scheme, assemble(scene, model).start);
+    State out;
+    for (int i = 0; i < 20; ++i) {
+      ASSERT_TRUE(run.advance(10));
+      const Step& last = run.last();
+      ASSERT_TRUE(run.sample(last.to.state.t, out));
+      const long evaluated = run.sampled().evaluations, factored = run.sampled().factorizations;
+      for (int row = 1; row <= rows; ++row) ASSERT_TRUE(run.sample(last.from.state.t + row * last.h / (rows + 1), out));
+      EXPECT_EQ(run.sampled().evaluations - evaluated, rows + pair.first) << pair.method;
+      EXPECT_LE(run.sampled().factorizations - factored, corrections * (rows + pair.first)) << pair.method;
+    }
+  }
+}
+
 // ---- many rows ---------------------------------------------------------------------------------
 
 // Rods of length 0.1 hung in a row, angles and spins at random but the same each time.

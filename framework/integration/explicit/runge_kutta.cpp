@@ -27,16 +27,20 @@ void RungeKutta::interpolate(const Step& step, double t, State& out) const { int
 
 bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
   if (!reading_) {
-    reading_ = std::make_unique<Reading>(Reading{Stages(system_, stages_.tableau(), stages_.constraints()), {}});
+    reading_ = std::make_unique<Reading>(Reading{Stages(system_, stages_.tableau(), stages_.constraints()), {}, {}});
     reading_->node.dy.setZero(system_.n_y());
   }
-  auto& [stages, node] = *reading_;
+  auto& [stages, node, inner] = *reading_;
   stages.take_partition(stages_);
   const bool inside = t < step.to.state.t;
-  const bool by_a_step = inside && stages.tableau().order > 5;  // better than fifth-order dense output over its long steps
   bool found;
-  if (by_a_step) {
-    found = stages.reach(system_, step.from, t - step.from.state.t, node, eq);
+  if (inside && stages.tableau().order > 5) {
+    if (inner.prepare(system_, step, stages, eq)) {
+      inner.interpolate(step, t, node.state);
+      found = stages.project(system_, node, eq);
+    } else {
+      found = stages.reach(system_, step.from, t - step.from.state.t, node, eq);
+    }
   } else {
     if (inside) {
       interpolate_quintic(system_, step, t, node.state);

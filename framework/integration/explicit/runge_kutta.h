@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "framework/integration/explicit/inner_motion.h"
 #include "framework/integration/explicit/stages.h"
 #include "framework/integration/stepper.h"
 
@@ -36,6 +37,7 @@ class RungeKutta final : public Stepper {
   struct Reading {
     Stages stages;
     Instant node;
+    InnerMotion inner;  ///< for long steps
   };
 
   double pivot_known(const Step&) const;
