@@ -1,7 +1,6 @@
 #include "framework/study/case.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -17,6 +16,7 @@
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/common/library_threads.h"
+#include "framework/common/processor_time.h"
 #include "framework/common/text.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/scene/text_file.h"
@@ -27,8 +27,7 @@ namespace pintle {
 
 namespace {
 
-using clock = std::chrono::steady_clock;
-double since(clock::time_point begin) { return std::chrono::duration<double>(clock::now() - begin).count(); }
+double since(double begin) { return processor_time() - begin; }
 
 std::string one_line(std::string s) {
   for (char& c : s)
@@ -63,7 +62,7 @@ void validate_words(const CaseSource& source, const std::vector<Measure>& measur
 }
 
 struct Timed {
-  clock::time_point begin = clock::now();
+  double begin = processor_time();
   bool over = false;
 };
 
@@ -130,7 +129,7 @@ std::string curves_csv(const std::vector<Measure>& curves, const Scene& scene, c
 
 /// Analyses that give columns: a run, kinematics, inverse, statics.
 void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, Scene& scene,
-               clock::time_point begin) {
+               double begin) {
   if (limits.time_alone) scene.output.every = scene.run.until;
   const Model model = limits.bodies ? build(scene, *limits.bodies) : build(scene);
   const Assembly assembly = assemble(scene, model);
@@ -168,10 +167,10 @@ std::optional<State> linearized_about(const Scene& scene, const Model& model, co
 
 /// Analyses that compute modes.
 void modes_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, const Scene& scene,
-              clock::time_point begin) {
+              double begin) {
   std::vector<AskedMode> asked;
   for (const Measure& m : measures) asked.push_back(read_mode_measure(m, scene)), out.units[asked.size() - 1] = asked.back().unit;
-  const clock::time_point solving = clock::now();
+  const double solving = processor_time();
   if (source.question.analysis == Analysis::modes) {
     std::map<std::string, int> most;
     for (const AskedMode& a : asked) most[a.body] = std::max(most[a.body], a.number);
@@ -194,7 +193,7 @@ void modes_in(Outcome& out, const CaseSource& source, const std::vector<Measure>
 
 void run_in(Outcome& out, const CaseSource& source, const Overrides& overrides, const std::vector<Measure>& measures,
             const CaseLimits& limits) {
-  const auto begin = clock::now();
+  const double begin = processor_time();
   Scene scene = case_scene(source, overrides);
   validate_words(source, measures, scene);
   std::vector<Measure> recorded = measures;

@@ -42,8 +42,8 @@ struct Outcome {
   std::string reason;              ///< one line; empty when finished
   std::vector<double> values;      ///< one per measure; NaN where there is none
   std::vector<std::string> units;  ///< likewise; empty if the scene was refused
-  double build_seconds = 0;        ///< reading, building, assembling
-  double run_seconds = 0;          ///< simulating
+  double build_seconds = 0;        ///< processor time of reading, building, assembling
+  double run_seconds = 0;          ///< likewise of simulating
   double t_end = 0;                ///< reached [s]
   Counts counts;
   long impacts = 0;              ///< of all clearances

@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "framework/analysis/cost/cost_estimate.h"
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/analysis/cost/simpler.h"
+#include "framework/common/processor_time.h"
 #include "framework/integration/integrator.h"
 #include "framework/mechanism/table.h"
 #include "framework/scene/yaml/reader.h"
@@ -28,6 +31,23 @@ struct Case {
   Model model;
   Assembly assembly;
 };
+
+// Not of the clock on the wall: a listener that waits takes none.
+TEST(ComputingTime, IsThatOfTheProcessor) {
+  Case c("pendulum.yaml");
+  c.scene.run.until = 1e-2;
+  Listeners waiting;
+  waiting.progress = [](double) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return true;
+  };
+  const double begin = processor_time();
+  const pintle::Run run = simulate(c.scene, c.model, c.assembly, waiting);
+  const double spent = processor_time() - begin;
+  EXPECT_EQ(run.status, Status::finished) << run.reason;
+  EXPECT_GT(run.seconds, 0);
+  EXPECT_LE(run.seconds, spent);
+}
 
 constexpr double thorough = 20;  // seconds of trials that all runs here end well before
 // Steps are guessed from a part of the run; impacts and turning cranks do not come evenly.

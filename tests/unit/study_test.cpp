@@ -3,11 +3,13 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <thread>
 
+#include "framework/common/processor_time.h"
 #include "framework/scene/yaml/override.h"
 #include "framework/study/study.h"
 #include "tests/unit/scene_text.h"
@@ -169,6 +171,20 @@ TEST(Case, EndsWithAStatusAndAReasonInOneLine) {
     const bool measured = w.status == "finished" || w.status == "ledger over its bound";
     for (const double v : out.values) EXPECT_EQ(std::isnan(v), !measured);
   }
+}
+
+TEST(Case, TakesTheProcessorTimeOfItsThread) {
+  CaseLimits waiting;
+  waiting.go_on = [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return true;
+  };
+  const double begin = processor_time();
+  const Outcome out = run_case({"knocking.yaml", knocking, {{"run.until", "1 ms"}}}, {}, {}, waiting);
+  const double spent = processor_time() - begin;
+  EXPECT_EQ(out.status, "finished") << out.reason;
+  EXPECT_TRUE(out.build_seconds > 0 && out.run_seconds > 0);
+  EXPECT_LE(out.build_seconds + out.run_seconds, spent);
 }
 
 TEST(Case, TakesItsOwnOverridesAfterTheCommonOnes) {

@@ -1,12 +1,12 @@
 #include "framework/analysis/kinematics/inverse.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "framework/analysis/kinematics/kinematics.h"
 #include "framework/analysis/simulate/end_short.h"
+#include "framework/common/processor_time.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
 #include "framework/configuration/unsound_laws.h"
@@ -114,7 +114,6 @@ std::vector<DriverEffort> find_efforts(const Model& model, const Assembly& assem
 }
 
 void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, Inverse& out) {
-  using clock = std::chrono::steady_clock;
   Run& run = out.run;
   run.warnings = model.warnings;
   for (const std::string& warning : warnings_of(model, assembly)) run.warnings.push_back(warning);
@@ -124,9 +123,9 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   if (run.status == Status::failed && run.reason.empty())
     run.reason = "t = " + number_text(forces.motion().state().t, 9) + " s: the forces there are not finite; " +
                  explain_signals(scene, model, assembly.start, forces.motion().state());
-  const auto begin = clock::now();
+  const double begin = processor_time();
   if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
-  run.seconds += std::chrono::duration<double>(clock::now() - begin).count();
+  run.seconds += processor_time() - begin;
 }
 
 // Efforts are recorded at the run's animation frames, taken more often, whether frames are drawn or not.

@@ -1,13 +1,13 @@
 #include "framework/analysis/kinematics/kinematics.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/common/dense.h"
+#include "framework/common/processor_time.h"
 #include "framework/common/some_of.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
@@ -194,9 +194,8 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
 
 void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance,
             const Listeners& listeners, Run& run) {
-  using clock = std::chrono::steady_clock;
-  const auto begin = clock::now();
-  clock::duration drawing{};
+  const double begin = processor_time();
+  double drawing = 0;
   run.trajectory = trajectory_table(told);
   const std::vector<double> outputs = output_times(scene), frames = frame_times(scene);  // visited even if not drawn
   std::size_t o = 0, f = 0;
@@ -218,10 +217,10 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
         warn_of_signals(scene, told, motion.state(), run.trajectory, run.warnings);
       }
       if (f < frames.size() && frames[f] == t) {
-        const auto before = clock::now();
+        const double before = processor_time();
         if (listeners.frame) listeners.frame(motion.state(), motion.equations());
         ++f;
-        drawing += clock::now() - before;
+        drawing += processor_time() - before;
       }
     }
   };
@@ -235,7 +234,7 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
   run.counts.rejected = motion.rejected();
   run.worst_position = motion.worst_position();
   run.worst_velocity = motion.worst_velocity();
-  run.seconds = std::chrono::duration<double>(clock::now() - begin - drawing).count();
+  run.seconds = processor_time() - begin - drawing;
 }
 
 namespace {

@@ -83,9 +83,9 @@ Run begun(const Model& model, const Assembly& assembly) {
 /// Time spent in listeners does not count as computing time.
 template <class Act>
 void Simulation::listen(Act act) {
-  const auto before = Wall::now();
+  const double before = processor_time();
   act();
-  spent_listening_ += Wall::now() - before;
+  seconds_ -= processor_time() - before;
 }
 
 Simulation::Simulation(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners, const SavedState* from)
@@ -108,6 +108,7 @@ Simulation::Simulation(const Scene& scene, const Model& model, const Assembly& a
   states_.pass(integrator_.state().t);
   countable_ = all_finite(energies(system_, integrator_.state(), integrator_.equations()));
   going_ = integrator_.failure().empty() && countable_;
+  seconds_ += processor_time();
 }
 
 void Simulation::go_on(const SavedState& from) {
@@ -132,6 +133,7 @@ bool Simulation::advance(double t) { return advance(t, false); }
 bool Simulation::advance_to_event(double t) { return advance(t, true); }
 
 bool Simulation::advance(double t, bool to_event) {
+  const Computing computing(seconds_);
   const double until = std::min(t, scene_.run.until);
   guarded(run_, last_row_, [&] {
     if (going_ && !opened_) undecided_.see(integrator_.state());
@@ -160,6 +162,7 @@ std::vector<double> Simulation::now() {
 }
 
 Run Simulation::finish() {
+  const double begin = processor_time();
   if (!going_ && !ended_short(run_)) explain();
   if (goes_on() && integrator_.state().t < scene_.run.until) end(Status::interrupted, "left before its end");
   guarded(run_, last_row_, [&] { add_last(); });
@@ -179,7 +182,7 @@ Run Simulation::finish() {
   run_.switched = integrator_.switched();
   run_.worst_position = integrator_.worst_position();
   run_.worst_velocity = integrator_.worst_velocity();
-  run_.seconds = std::chrono::duration<double>(Wall::now() - begin_ - spent_listening_).count();
+  run_.seconds = seconds_ + processor_time() - begin;
   check_energy_balance(scene_, model_, integrator_.implicit(),
                        rounding_energy(system_, integrator_.state(), integrator_.equations(), scene_.run.until), run_);
   return std::move(run_);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/analysis/simulate/slow_contact.h"
 #include "framework/analysis/simulate/undecided_contacts.h"
+#include "framework/common/processor_time.h"
 #include "framework/integration/integrator.h"
 
 namespace pintle {
@@ -75,7 +75,16 @@ class Simulation {
   Run finish();
 
  private:
-  using Wall = std::chrono::steady_clock;
+  /// Adds the processor time of its life to the run's: between calls the caller may do other work, or call from another thread.
+  class Computing {
+   public:
+    explicit Computing(double& seconds) : seconds_(seconds) { seconds_ -= processor_time(); }
+    ~Computing() { seconds_ += processor_time(); }
+    Computing(const Computing&) = delete;
+
+   private:
+    double& seconds_;
+  };
 
   void go_on(const SavedState&);
   bool advance(double t, bool to_event);
@@ -99,8 +108,7 @@ class Simulation {
   const Listeners listeners_;
   Run run_;
   Clock outputs_, states_, frames_;
-  Wall::time_point begin_ = Wall::now();
-  Wall::duration spent_listening_{};
+  double seconds_ = -processor_time();  ///< of computing; while it computes, less the time of the clock
   const State& start_;
   Integrator integrator_;
   State sampled_;

@@ -13,6 +13,7 @@
 #include "framework/bodies/body_store.h"
 #include "framework/common/file.h"
 #include "framework/common/library_threads.h"
+#include "framework/common/processor_time.h"
 #include "framework/study/sweep/study_folder.h"
 #include "framework/study/sweep/task_queue.h"
 
@@ -92,16 +93,17 @@ class ChainWorkers {
         before = Orbit::of(found->second.values);
       } else {
         const auto begin = wall_clock::now();
+        const double begin_computing = processor_time();
         Row row = follow_one(number, known ? &before : nullptr);
         set_progress(number, {});
         if (stopped_ || row.status == status_text(Status::interrupted)) return;
         row.worker = "0." + std::to_string(thread);
-        row.run_seconds = seconds_since(begin);
+        row.run_seconds = processor_time() - begin_computing;
         journal_.append(row);
         if (row.status == status_text(Status::out_of_memory)) return;
         before = Orbit::of(row.values);
         const std::lock_guard lock(mutex_);
-        ++done_, troubled_ += row.status != "finished", busy_ += row.run_seconds;
+        ++done_, troubled_ += row.status != "finished", busy_ += seconds_since(begin);
       }
       known = !before.end.empty();
     }

@@ -1,13 +1,13 @@
 #include "framework/study/nonlinear/orbit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <new>
 
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/bodies/body_store.h"
 #include "framework/build/build.h"
+#include "framework/common/processor_time.h"
 #include "framework/common/text.h"
 #include "framework/configuration/assemble.h"
 #include "framework/mechanism/trajectory.h"
@@ -132,7 +132,7 @@ class Following {
   void follow() {
     Integrator integrator(model_.system, model_.scheme, start_);
     if (!integrator.failure().empty()) throw OrbitTrouble{"failed", integrator.failure()};
-    integrator_ = &integrator, begin_ = work_clock::now();
+    integrator_ = &integrator, begin_ = processor_time();
     try {
       if (question_.section) {
         returns(integrator);
@@ -155,13 +155,12 @@ class Following {
     out_.orbit.end.assign(y.data(), y.data() + model_.system.z_begin());
   }
 
-  using work_clock = std::chrono::steady_clock;
   static constexpr const char* out_of_time = "over its limit";
 
   /// Reports the progress. @returns whether to continue @throws OrbitTrouble  the time limit is exceeded
   bool report_progress() const {
     const std::string at = place();
-    const double seconds = std::chrono::duration<double>(work_clock::now() - begin_).count();
+    const double seconds = processor_time() - begin_;
     if (limits_.seconds > 0 && seconds > limits_.seconds)
       throw OrbitTrouble{out_of_time, "stopped after " + number_text(seconds, 3) + " s of computing, at " + at};
     return !limits_.go_on || limits_.go_on(share(), at);
@@ -279,7 +278,7 @@ class Following {
   double longest_ = 0;  ///< longest time of a periodic orbit [s]
   LyapunovTimes times_;
   const Integrator* integrator_ = nullptr;
-  work_clock::time_point begin_;
+  double begin_ = 0;  ///< of the processor time [s]
   bool cycle_begun_ = false;
   int came_ = 0;                            ///< returns so far, including those that are not recorded
   std::optional<double> neighbours_begin_;  ///< [s]; empty before they begin
