@@ -218,7 +218,7 @@ TEST_P(SchemeContract, DenseOutputHasTheOrderOfItsPolynomials) {
 // Its steps are three times as long, so a polynomial through their ends alone is not enough.
 TEST(InnerMotion, ErrsAsAStepOfOrderEight) {
   for (const Case& k : {link::make(), series::make()}) {
-    const std::vector<double> h{0.24, 0.16, 0.108};
+    const std::vector<double> h{0.12, 0.08, 0.054};
     std::vector<double> error;
     for (const double span : h) {
       Equations eq(k.system);
@@ -239,7 +239,8 @@ TEST(InnerMotion, ErrsAsAStepOfOrderEight) {
         error.back() = std::max(error.back(), (k.seen(dense.state.y, eq) - k.truth(tenth * span / 10)).lpNorm<Eigen::Infinity>());
       }
     }
-    expect_order(9, h, error);
+    EXPECT_GT(slope(h, error), 8.5) << "from " << error.front() << " to "
+                                    << error.back();  // nearer to h⁹ than to h⁸: the next term is seen
   }
 }
 
