@@ -11,6 +11,7 @@
 #include "framework/configuration/own_rest.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/dynamics/equations/energy.h"
+#include "framework/dynamics/equations/sticking_columns.h"
 #include "framework/integration/events/impact_log.h"
 
 namespace pintle {
@@ -217,6 +218,13 @@ std::string why_no_pose(const Scene& scene, const Model& model, const State& sta
                           : "the start pose is singular, or its forces exceed the range of a double (check stiffnesses, lengths and loads)";
 }
 
+// The friction is taken as 0, but what presses its surfaces is known.
+void find_friction_loads(const System& system, const State& state, Equations& eq) {
+  for (std::size_t k = 0; k < system.frictions.size(); ++k)
+    if (!is_released(system, Switch::joint, system.frictions[k].joint, state.y))
+      eq.friction[k].load = sticking_columns::load_of(system, eq, k, eq.lambda);
+}
+
 void finish(const Scene& scene, const Model& model, Rest& rest, const RestingStates& states, const State& last, Equilibrium& out) {
   const System& system = model.system;
   out.lambda = rest.eq.lambda;
@@ -229,6 +237,7 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
   if (const std::string moving = moving_state(system, states, last, out.warnings); !moving.empty() && out.found)
     out.found = false, out.reason = moving;
   warn(model, rest.eq, out);
+  find_friction_loads(system, last, rest.eq);
   record(model, out.state, rest.eq, out.table);
   warn_of_signals(scene, model, out.state, out.table, out.warnings);
   if (!out.found)
