@@ -198,7 +198,7 @@ TEST(NamedStates, AWrongUnitIsFoundWhereItStands) {
   expect_one_line(refusal("{pid: other - cart.x, gains: [1 N/m, 2 N/m/s, 3 N/m], filter: 2 ms, limits: [-1 N, 1 N]}"),
                   u + ".gains[3]: ", {"\"3 N/m\" times the error's rate is ", "expected a force [N]"});
   expect_one_line(refusal("{pid: other - cart.x, " + gains + ", limits: [-9 N m, 9 N m]}"),
-                  u + ".limits: ", {"a torque or energy [N*m]; expected a force [N]"});
+                  u + ".limits[1]: ", {"\"-9 N m\" is a torque or energy [N*m]; expected a force [N]"});
   expect_one_line(refusal("{pid: other - cart.x, " + gains + ", limits: [-9 N, 9 N], start: 1 N m}"), u + ".limits", {"expected a torque"});
   expect_one_line(refusal("{pid: other - cart.angle, " + gains + "}"),
                   u + ".pid: ", {"\"other - cart.angle\"", "- mixes a length [m] and an angle"});

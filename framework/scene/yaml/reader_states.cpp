@@ -213,7 +213,7 @@ std::string hint_of_unit(const Node& node) {
 /// The value that says what a state is measured in.
 std::optional<Node> says_unit(const Node& node) {
   for (const char* key : {"unit", "start", "limits"})
-    if (!bare(dimension_at(node, key))) return node.at(key);
+    if (!bare(dimension_at(node, key))) return node.at(key).is_list() ? node.at(key).list(1, "")[0] : node.at(key);
   return {};
 }
 
