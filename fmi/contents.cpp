@@ -67,7 +67,8 @@ std::vector<std::string> chosen_inputs(const Scene& scene, const std::vector<std
 void choose_outputs(const Scene& scene, const std::vector<std::string>& wanted, std::vector<FmuVariable>& variables) {
   std::vector<std::string> names = wanted, known;
   if (names.empty())
-    for (const SceneOutput& output : scene.outputs) names.push_back(output.name);
+    for (const SceneOutput& output : scene.outputs)
+      if (!output.place.key.starts_with("states.")) names.push_back(output.name);  // a PID controller of `states` is no choice
   const bool all = names.empty();
   for (FmuVariable& v : variables)
     if (v.kind == FmuVariable::column) v.output = all, known.push_back(v.name);

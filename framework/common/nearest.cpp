@@ -59,8 +59,13 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   const std::string best = nearest(word, candidates);
   if (!best.empty()) return " Did you mean \"" + best + "\"?";
   if (candidates.empty()) return " None is known here.";
-  const auto shown = candidates.first(std::min<std::size_t>(candidates.size(), 20));
-  if (shown.size() < candidates.size()) return " Known here: " + listed(shown, ",").append(" and others.");
+  constexpr std::size_t most = 20;
+  std::vector<std::string> shown;  // each once
+  for (const std::string& one : candidates)
+    if (shown.size() <= most && std::ranges::find(shown, one) == shown.end()) shown.push_back(one);
+  const bool more = shown.size() > most;
+  if (more) shown.pop_back();
+  if (more) return " Known here: " + listed(shown, ",").append(" and others.");
   return " Known here: " + listed(shown) + ".";
 }
 

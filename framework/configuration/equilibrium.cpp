@@ -12,6 +12,7 @@
 #include "framework/configuration/own_rest.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/dynamics/equations/energy.h"
+#include "framework/dynamics/equations/sticking_columns.h"
 #include "framework/integration/events/impact_log.h"
 
 namespace pintle {
@@ -212,6 +213,13 @@ std::string why_no_pose(const Scene& scene, const Model& model, const State& sta
                           : "the start pose is singular, or its forces exceed the range of a double (check stiffnesses, lengths and loads)";
 }
 
+// The friction is taken as 0, but what presses its surfaces is known.
+void find_friction_loads(const System& system, const State& state, Equations& eq) {
+  for (std::size_t k = 0; k < system.frictions.size(); ++k)
+    if (!is_released(system, Switch::joint, system.frictions[k].joint, state.y))
+      eq.friction[k].load = sticking_columns::load_of(system, eq, k, eq.lambda);
+}
+
 void finish(const Scene& scene, const Model& model, Rest& rest, const RestingStates& states, const State& last, Equilibrium& out) {
   const System& system = model.system;
   out.lambda = rest.eq.lambda;
@@ -223,7 +231,10 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
   }
   if (const std::string moving = moving_state(system, states, last, out.warnings); !moving.empty() && out.found)
     out.found = false, out.reason = moving;
+  if (const std::string limited = out.found ? beyond_its_limit(system, rest.held, states, last) : ""; !limited.empty())
+    out.found = false, out.reason = limited;
   warn(model, rest.eq, out);
+  find_friction_loads(system, last, rest.eq);
   record(model, out.state, rest.eq, out.table);
   warn_of_signals(scene, model, out.state, out.table, out.warnings);
   if (!out.found)
@@ -235,8 +246,8 @@ VectorXd own_states(const System& system, const State& state) {
 }
 
 /// From out.state, where the own states do not follow from each pose. @returns false where they do
-bool rests_together(const Scene& scene, const Model& model, const RestingStates& states, double time, Equilibrium& out) {
-  const System& system = model.system;
+bool rests_together(const Scene& scene, const Model& model, const System& system, const RestingStates& states, double time,
+                    Equilibrium& out) {
   KeptStates all{{}, std::make_shared<VectorXd>(own_states(system, out.state))};
   for (std::size_t i = 0; i < system.states.size(); ++i) all.which.push_back(static_cast<int>(i));
   Rest rest(system, time, all);
@@ -269,25 +280,26 @@ bool rests_together(const Scene& scene, const Model& model, const RestingStates&
 }  // namespace
 
 Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assembly& assembly, double time) {
-  const System& system = model.system;
-  refuse_rigid_contacts(scene, system, "an equilibrium");
+  refuse_rigid_contacts(scene, model.system, "an equilibrium");
   Equilibrium out;
   out.warnings = model.warnings;
   for (const std::string& warning : warnings_of(model, assembly)) out.warnings.push_back(warning);
   out.table = trajectory_table(model);
   out.state = assembly.start;
   double reached = 0;
-  if (time != 0 && !lead(system, time, out.state, reached)) {
+  if (time != 0 && !lead(model.system, time, out.state, reached)) {
     std::vector<std::string> drivers;
-    for (std::size_t k = 0; k < system.joints.size(); ++k)
-      if (is_driver(system.joints[k])) drivers.push_back(system.joint_names[k]);
+    for (std::size_t k = 0; k < model.system.joints.size(); ++k)
+      if (is_driver(model.system.joints[k])) drivers.push_back(model.system.joint_names[k]);
     out.reason =
         "the mechanism cannot be moved beyond t = " + number_text(reached) + " s: the law of " + some_of(drivers) +
         " prescribes a position that the links cannot reach there, or passes a singular configuration; name an earlier time with --at";
     return out;
   }
-  const RestingStates states = resting_states(system);
-  if (!states.sought.empty() && rests_together(scene, model, states, time, out)) return out;
+  const RestingStates states = resting_states(model.system);
+  const std::optional<System> unlimited_rates = without_limits(model.system, states, Limits::of_value);
+  const System& system = unlimited_rates ? *unlimited_rates : model.system;
+  if (!states.sought.empty() && rests_together(scene, model, system, states, time, out)) return out;
   Rest rest(system, time, {states.kept, std::make_shared<VectorXd>(own_states(system, out.state))});
   if (!rest.project(out.state, 1)) {
     out.reason = why_no_pose(scene, model, out.state);
@@ -299,7 +311,7 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   rest.project(last, 1);
   if (!states.sought.empty() && !follow_the_pose(system, states, rest, time)) {  // a limit has been left: an integral is free again
     out.state = last;
-    if (rests_together(scene, model, states, time, out)) return out;
+    if (rests_together(scene, model, system, states, time, out)) return out;
   }
   out.iterations = way.iterations();
   out.residual = rest.residual();

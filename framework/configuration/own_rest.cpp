@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
@@ -172,6 +175,26 @@ RestingStates resting_states(const System& system) {
   return out;
 }
 
+std::optional<System> without_limits(const System& system, const RestingStates& states, Limits which) {
+  std::vector<int> limited;
+  for (const int i : states.sought) limited.push_back(system.states[at(i)].rate);
+  if (which == Limits::all) limited.resize(system.laws.size()), std::iota(limited.begin(), limited.end(), 0);
+  std::optional<System> out;
+  for (const int k : limited) {
+    const SignalLaw& law = system.laws[at(k)];
+    std::vector<bool> fixed;
+    for (const int in : law.in) {
+      const MotionSignal& signal = system.signals[at(in)];
+      fixed.push_back(signal.kind == MotionSignal::state && std::ranges::find(states.kept, signal.a) != states.kept.end());
+    }
+    const auto free = unlimited(law.of, fixed, which);
+    if (!free) continue;
+    if (!out) out = system;
+    out->laws[at(k)].of = *free, out->laws[at(k)].sided = nullptr;
+  }
+  return out;
+}
+
 bool follow_the_pose(const System& system, const RestingStates& states, const Rest& rest, double t) {
   const auto m = static_cast<Index>(states.sought.size());
   if (m == 0) return true;
@@ -187,16 +210,12 @@ bool follow_the_pose(const System& system, const RestingStates& states, const Re
   return Eigen::FullPivLU<MatrixXd>(g_x).rank() == m;
 }
 
-JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const RestingStates& states, State& state) {
+namespace {
+
+JointRest newton_together(const System& system, Rest& rest, VectorXd& own, const RestingStates& states, State& state) {
   constexpr double balanced = 1e-13, nearly = 1e-7, still = 1e-9, most_damped = 1e12;
   constexpr int most = 500;
   JointRest out;
-  if (system.n() + static_cast<int>(states.sought.size()) > most_together) {
-    out.reason = "the states " + list_of_states(system, states.sought) +
-                 " are at rest only together with the pose, and this is solved for at most " + std::to_string(most_together) +
-                 " coordinates; make the rate of each state decrease with the state, or use fewer modes";
-    return out;
-  }
   TogetherAtRest now(system, rest, own, states);
   now.look(state);
   double damping = 1e-6;
@@ -227,6 +246,60 @@ JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const
                  "equilibrium";
   }
   return out;
+}
+
+/// From the rest that the mechanism would have without limits. @returns false: there is none within them either
+bool from_rest_without_limits(const System& system, Rest& rest, VectorXd& own, const RestingStates& states, State& state, JointRest& out) {
+  const std::optional<System> free = without_limits(system, states, Limits::all);
+  if (!free) return false;
+  KeptStates all{{}, std::make_shared<VectorXd>(own)};
+  for (std::size_t i = 0; i < system.states.size(); ++i) all.which.push_back(static_cast<int>(i));
+  Rest beyond(*free, state.t, all);
+  if (!beyond.project(state, 1)) return false;
+  const int before = out.iterations + newton_together(*free, beyond, *all.at, states, state).iterations;
+  own = *all.at;
+  if (!rest.project(state, 1)) return false;
+  JointRest within = newton_together(system, rest, own, states, state);
+  if (!within.found) return false;
+  out = std::move(within);
+  out.iterations += before;
+  return true;
+}
+
+}  // namespace
+
+JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const RestingStates& states, State& state) {
+  JointRest out;
+  if (system.n() + static_cast<int>(states.sought.size()) > most_together) {
+    out.reason = "the states " + list_of_states(system, states.sought) +
+                 " are at rest only together with the pose, and this is solved for at most " + std::to_string(most_together) +
+                 " coordinates; make the rate of each state decrease with the state, or use fewer modes";
+    return out;
+  }
+  const State start = state;
+  const VectorXd own_at_start = own;
+  out = newton_together(system, rest, own, states, state);
+  if (out.found) return out;
+  const State end = std::exchange(state, start);
+  const VectorXd own_at_end = std::exchange(own, own_at_start);
+  if (!from_rest_without_limits(system, rest, own, states, state, out)) {
+    own = own_at_end, state = end;
+    rest.project(state, 1);
+  }
+  return out;
+}
+
+std::string beyond_its_limit(const System& system, const System& unlimited, const RestingStates& states, const State& state) {
+  constexpr double still = 1e-9;  // relative to its scale, per second
+  for (const int i : states.sought) {
+    const OwnState& own = system.states[at(i)];
+    const double rate = law_at(system, system.laws[at(own.rate)], state.t, state.y),
+                 free = law_at(unlimited, unlimited.laws[at(own.rate)], state.t, state.y);
+    if (!(std::abs(rate - free) <= still * own.scale))
+      return "the state " + quoted(own.name) + " does not come to rest: its rate there is " + with_rate_unit(rate, own) +
+             ", as far as its limits let it; they must leave 0 between them";
+  }
+  return "";
 }
 
 std::string moving_state(const System& system, const RestingStates& states, const State& state, std::vector<std::string>& notes) {

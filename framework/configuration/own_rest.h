@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/configuration/rest.h"
+#include "framework/scene/units/unlimited.h"
 
 /// Common equilibrium of own states and mechanism: g = 0 with f − Cqᵀλ = 0. Theory: docs/theory/signals.md, "Rest".
 namespace pintle {
@@ -14,6 +16,10 @@ struct RestingStates {
   std::vector<int> sought;  ///< the others
 };
 RestingStates resting_states(const System&);
+
+/// The system without limits of the rates of sought states, which are 0 within these limits as without them; or without the limits of all
+/// laws of signals. Beyond a limit a law has no slope to follow. Kept states count as fixed. @returns nothing where there are none
+std::optional<System> without_limits(const System&, const RestingStates&, Limits);
 
 /// Are the sought states determined by the configuration, through their rates? @pre rest was projected onto the joints
 bool follow_the_pose(const System&, const RestingStates&, const Rest&, double t);
@@ -27,6 +33,9 @@ struct JointRest {
   std::vector<std::string> undetermined;  ///< states that are not determined: other values would do as well
 };
 JointRest find_joint_rest(const System&, Rest&, Eigen::VectorXd& own, const RestingStates&, State&);
+
+/// Describes a sought state that rests only without the limits of its rate; empty if there is none.
+std::string beyond_its_limit(const System&, const System& unlimited, const RestingStates&, const State&);
 
 /// Describes a held state whose rate is not 0 there; empty if there is none. Other held states are reported in `notes`.
 std::string moving_state(const System&, const RestingStates&, const State&, std::vector<std::string>& notes);

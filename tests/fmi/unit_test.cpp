@@ -82,6 +82,24 @@ TEST(Fmu, DescribesItselfAsTheStandardAsks) {
   EXPECT_TRUE(fs::exists(unit.folder() / "documentation/index.html"));
 }
 
+// A controller by name is no choice of outputs; a parameter that an event sets is a column, and its start a parameter.
+TEST(Fmu, WithoutOutputsOfTheSceneAllColumnsAreOutputs) {
+  Exported made("arm.yaml", R"(
+gravity: [0, -9.81 m/s^2]
+parameters: {load: 0 N m}
+bodies: {arm: {rigid: {mass: 2 kg, inertia: 0.06 kg m^2, center: [0.3 m, 0]}, points: {O: [0, 0]}}}
+joints: {pivot: {revolute: [ground, arm.O]}}
+states: {u: {pid: 0.5 rad - arm.angle, gains: [40 N m, 15 N m/s, 4 N m s], filter: 2 ms, limits: [-9 N m, 9 N m]}}
+forces: {servo: {torque: u + load, on: arm}}
+events: {loaded: {when: arm.angle > 0 rad, do: {set: {load: -1 N m}}}}
+run: {until: 1 s}
+)");
+  ASSERT_EQ(made.end().code, 0) << made.end().complained;
+  for (const char* column : {"u", "u integral", "arm.angle", "pivot.fx on arm", "load"})
+    EXPECT_EQ(made.unit().variable(column).at("causality"), "output") << column;
+  EXPECT_EQ(made.unit().variable("parameters.load").at("causality"), "parameter");
+}
+
 // Every function of the standard's table is there to be loaded.
 TEST(Fmu, HasEveryFunctionOfTheStandard) {
   Exported made("arm.yaml", led_arm);

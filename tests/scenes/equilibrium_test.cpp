@@ -197,6 +197,22 @@ TEST(Equilibrium, ADoublyHingedDoorHangsInBothHinges) {
   EXPECT_NEAR(f.value("upper hinge.fy on door [N]"), weight / 2, shared * weight);
 }
 
+// Friction at rest is taken as 0, what presses the surfaces is not: the weights, and a preload.
+TEST(Equilibrium, WhatPressesAJointWithFrictionIsTold) {
+  const Found found =
+      rest_of(scene_of("gravity: [0, -9.81]\n"
+                       "bodies:\n"
+                       "  wheel: {rigid: {mass: 10, inertia: 0.2}, points: {O: [0, 0]}}\n"
+                       "  drawer: {rigid: {mass: 3, inertia: 0.02}, points: {O: [0, 0]}}\n"
+                       "joints:\n"
+                       "  axle: {revolute: [ground, wheel.O], friction: {coulomb: {coefficient: 0.1}, radius: 20 mm}}\n"
+                       "  guide: {prismatic: [ground, drawer.O], friction: {coulomb: {coefficient: 0.3}, length: 0.2 m, preload: 5 N}}\n"));
+  ASSERT_TRUE(found.rest.found) << found.rest.reason;
+  EXPECT_NEAR(found.value("axle.load [N]"), 98.1, 98.1 * solved);
+  EXPECT_NEAR(found.value("guide.load [N]"), 3 * 9.81 + 5, 35 * solved);
+  EXPECT_EQ(found.value("axle.friction [N]"), 0);
+}
+
 TEST(Equilibrium, AFallingBodyHasNoneAndIsNamed) {
   Scene s = pendulum(Hanging::by_pin, 1);
   s.bodies.push_back(body("loose", 1, 1, {}));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/build/build.h"
@@ -85,6 +86,61 @@ TEST(JointRest, ACounterStaysAsItStarts) {
   EXPECT_TRUE(found.warns("\"turned\" keeps its start value, 2"));
   EXPECT_FALSE(found.warns("heater"));
   EXPECT_TRUE(found.rest.stability.judged);
+}
+
+// Far from its target the rate of the demand is at its limit, whatever the demand is; and so is the torque.
+TEST(JointRest, ALimitedRateRestsAtItsTarget) {
+  const std::string u = ", u: {pid: demand - seen, gains: [40 N m, 15 N m/s, 4 N m s], filter: 2 ms, limits: [-12 N m, 12 N m]}";
+  for (const std::string demand :
+       {"demand: {rate limit: target, most: 3 rad/s, time: 1 ms}",
+        "demand: {rate limit: target, most: [-1 rad/s, 3 rad/s], time: 9 ms, start: 3 rad}",
+        "demand: {rate: \"max(-3 rad/s, min(3 rad/s, (target - demand)/(1 ms)))\", start: 0 rad}",
+        "demand: {rate: \"saturate((target - demand)/(1 ms), -cap, cap)\", start: 0 rad}, cap: {rate: 0, start: 3 rad/s}"}) {
+    const Found found(arm(demand + ", seen: {lag: arm.angle, time: 20 ms, lead: 8 ms}" + u, "u", "start: {arm: {angle: -1.4 rad}}\n"));
+    ASSERT_TRUE(found.rest.found) << demand << ": " << found.rest.reason;
+    EXPECT_NEAR(found.angle(), target, 1e-9) << demand;
+    EXPECT_NEAR(found.state(0), target, 1e-9) << demand;
+    EXPECT_NEAR(found.rest.table.column("u integral [N m]").at(0), weight * std::cos(target), 1e-7) << demand;
+    EXPECT_NEAR(found.rest.table.column("u [N m]").at(0), weight * std::cos(target), 1e-7) << demand;
+  }
+}
+
+// It acts on nothing, and the arm hangs down, from where its weight has no slope.
+TEST(JointRest, ALimitedRateThatIsOnlyWrittenDownRestsToo) {
+  const Found found(arm("demand: {rate limit: arm.angle, most: 3 rad/s, time: 1 ms, start: 5 rad}", "0*arm.angle*(1 N m)"));
+  ASSERT_TRUE(found.rest.found) << found.rest.reason;
+  EXPECT_NEAR(found.angle(), -std::numbers::pi / 2, 1e-7);
+  EXPECT_NEAR(found.state(0), found.angle(), 1e-7);
+}
+
+TEST(JointRest, ARateWhoseLimitsLeaveOutZeroIsNoRest) {
+  const Found found(
+      arm("demand: {rate: \"saturate((target - demand)/(1 s), 1 rad/s, 2 rad/s)\", start: 0 rad}", "40 N m*(demand - arm.angle)"));
+  EXPECT_FALSE(found.rest.found);
+  pintle_test::expect_says(found.rest.reason, {"\"demand\" does not come to rest", "1 rad/s"});
+}
+
+TEST(JointRest, ALimitedRateThatFollowsAnotherRestsWithIt) {
+  const Found found(arm("first: {rate limit: target, most: 3 rad/s, time: 1 ms}, demand: {rate limit: first, most: 1 rad/s, time: 1 ms}",
+                        "40 N m*(demand - arm.angle)"));
+  ASSERT_TRUE(found.rest.found) << found.rest.reason;
+  EXPECT_NEAR(found.state(0), target, 1e-9);
+  EXPECT_NEAR(found.state(1), target, 1e-9);
+  EXPECT_NEAR(40 * (target - found.angle()), weight * std::cos(found.angle()), 1e-7);
+}
+
+// 5 N m hold the arm where it weighs as much. The integral is led back: 15 e + (5 − 40 e − I)/(40/15) = 0.
+TEST(JointRest, AControllerAtItsLimitRestsThere) {
+  const Found found(
+      arm("demand: {rate limit: target, most: 3 rad/s, time: 1 ms}, "
+          "u: {pid: demand - arm.angle, gains: [40 N m, 15 N m/s, 0], limits: [-5 N m, 5 N m]}",
+          "u - 4 N m s*arm.speed", "start: {arm: {angle: -1 rad}}\n"));
+  ASSERT_TRUE(found.rest.found) << found.rest.reason;
+  const double e = target - found.angle();
+  EXPECT_NEAR(found.state(0), target, 1e-9);
+  EXPECT_NEAR(weight * std::cos(found.angle()), 5, 1e-6);
+  EXPECT_NEAR(found.rest.table.column("u [N m]").at(0), 5, 1e-9);
+  EXPECT_NEAR(found.state(1), 15 * e * 40 / 15 + 5 - 40 * e, 1e-6);
 }
 
 TEST(JointRest, WhatNothingBringsToRestIsNamed) {

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
+#include "tests/scenes/flexible_scenes.h"
 #include "tests/scenes/mechanisms.h"
 #include "tests/refusal.h"
 
@@ -169,6 +171,37 @@ TEST(Kinematics, AnUndrivenFreedomIsRefusedWithTheBodiesThatMove) {
   EXPECT_NE(said.find("1 degree of freedom is not driven"), std::string::npos) << said;
   EXPECT_NE(said.find("\"idle\" moves"), std::string::npos) << said;
   EXPECT_EQ(said.find("\"crank\""), std::string::npos) << said;
+}
+
+TEST(Kinematics, FrictionOfAJointIsNoColumnWhereNoForceIsOne) {
+  const auto run =
+      driven(scene_of("bodies: {arm: {rigid: {mass: 2, inertia: 0.06}, points: {O: [-0.3, 0]}}}\n"
+                      "joints: {pivot: {revolute: [ground, arm.O], friction: {coulomb: {coefficient: 0.1}, radius: 20 mm}}}\n"
+                      "drivers: {motor: {angle: [ground, arm], law: 2*t}}\n"
+                      "run: {until: 1}\n"));
+  ASSERT_EQ(run.status, Status::finished) << run.reason;
+  for (const std::string& heading : run.trajectory.header) EXPECT_FALSE(heading.starts_with("pivot")) << heading;
+}
+
+// A lag of the angle would stand at its start.
+TEST(Kinematics, WhatFollowsFromRatesIsLeftOut) {
+  const auto run =
+      driven(scene_of("bodies: {arm: {rigid: {mass: 2, inertia: 0.06}, points: {O: [-0.3, 0], T: [0.5, 0]}}}\n"
+                      "joints:\n"
+                      "  pivot:\n"
+                      "    revolute: [ground, arm.O]\n"
+                      "    friction: {lugre: {coefficient: 0.1, static: 0.2, stribeck speed: 1 mm/s, bristle stiffness: 1e5 1/m, bristle "
+                      "damping: 100 s/m}, radius: 20 mm}\n"
+                      "drivers: {motor: {angle: [ground, arm], law: 2*t}}\n"
+                      "states: {seen: {lag: arm.angle, time: 10 ms}}\n"
+                      "forces: {s: {maxwell: [ground, arm.T], stiffness: 100 N/m, damping: 10 N s/m}}\n"
+                      "outputs: {late: arm.angle - seen, twice: 2*arm.angle}\n"
+                      "run: {until: 1}\n"));
+  ASSERT_EQ(run.status, Status::finished) << run.reason;
+  for (const std::string& heading : run.trajectory.header)
+    EXPECT_TRUE(heading == "t [s]" || heading.starts_with("arm.") || heading == "twice [rad]") << heading;
+  EXPECT_NEAR(run.trajectory.column("twice [rad]").back(), 4, closed_form);
+  EXPECT_TRUE(std::ranges::any_of(run.warnings, [](const std::string& w) { return w.find("states") != std::string::npos; }));
 }
 
 TEST(Kinematics, AClearanceIsRefused) {

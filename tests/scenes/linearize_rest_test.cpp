@@ -37,6 +37,37 @@ TEST(LinearizeAtRest, ReleasedPendulumSwingsAboutWhereItHangs) {
   EXPECT_EQ(lin.coefficients, pintle::Coefficients::constant);
 }
 
+// About its pin 0.24 kg m², rubbed by 1 N m s: 0.24 λ² + λ + 2·9.81·0.3 = 0, whatever else is only written down.
+TEST(LinearizeAtRest, AStateThatNothingChangesOrThatChangesNothingIsNoMode) {
+  const pintle::Linearization lin =
+      about_rest(scene_of("gravity: [0, -9.81]\n"
+                          "parameters: {load: 0 N m}\n"
+                          "bodies: {arm: {rigid: {mass: 2, inertia: 0.06, center: [0.3, 0]}, points: {O: [0, 0]}}}\n"
+                          "joints: {pivot: {revolute: [ground, arm.O]}}\n"
+                          "states: {heater: {rate: 0, start: 1}, turned: {rate: arm.speed, start: 2 rad}}\n"
+                          "forces: {push: {torque: load + 1 N m*(heater - 1), on: arm}, rub: {torque: -1 N m s*arm.speed, on: arm}}\n"
+                          "events: {on: {when: arm.speed < -1 rad/s, do: {set: {load: 3 N m}}}}\n"
+                          "start: {arm: {angle: -80 deg}}\n"
+                          "run: {until: 1}\n"));
+  ASSERT_EQ(lin.modes.size(), 1U);
+  EXPECT_NEAR(std::abs(lin.modes[0].root - std::complex<double>(-1, std::sqrt(4 * 0.24 * 5.886 - 1)) / 0.48), 0, 1e-7);
+  EXPECT_TRUE(says(lin, "\"load\", \"heater\", \"turned\" have no mode"));
+  EXPECT_EQ(lin.space.A.rows(), 5);  // the state space keeps them
+}
+
+TEST(Linearize, ACounterAddsNoRootToAFreeTurn) {
+  const pintle::Scene scene = scene_of(
+      "bodies: {wheel: {rigid: {mass: 2, inertia: 0.06}, points: {O: [0, 0]}}}\n"
+      "joints: {axle: {revolute: [ground, wheel.O]}}\n"
+      "states: {turned: {rate: wheel.speed, start: 0 rad}}\n"
+      "run: {until: 1}\n");
+  const pintle::Model model = build(scene);
+  const pintle::Linearization lin = linearize(scene, model, assemble(scene, model).start);
+  ASSERT_EQ(lin.modes.size(), 1U);
+  EXPECT_EQ(lin.modes[0].kind, pintle::LinearMode::Kind::zero);
+  EXPECT_EQ(lin.modes[0].roots, 2);
+}
+
 TEST(LinearizeAtRest, StartThatIsNoEquilibriumIsSaidToBeNone) {
   const pintle::Scene scene = pendulum(Hanging::by_pin, 1.0);
   const pintle::Model model = build(scene);

@@ -177,12 +177,47 @@ TEST(NamedStates, WhatCannotBeIsRefusedByName) {
   expect_one_line(refusal("{pid: cart.x, gains: [1 N/m, 0 N/m/s, 0], tracking: 1 s}"), place + ".tracking: ", {"leave it out"});
   expect_one_line(refusal("{lag: cart.x}"), place + ": ", {"time: 20 ms"});
   expect_one_line(refusal("{lag: cart.x, time: 0 s}"), place + ".time: ", {"greater than 0"});
-  expect_one_line(refusal("{lag: cart.x, time: 1 s, unit: N}"), place + ": ", {"mixes"});
-  expect_one_line(refusal("{lag: cart.y2, time: 1 s}"), place + ": ", {"cart.y2"});
+  expect_one_line(refusal("{lag: cart.x, time: 1 s, unit: N}"), place + ".unit: ", {"a force [N]; expected a length [m]"});
+  expect_one_line(refusal("{lag: cart.y2, time: 1 s}"), place + ".lag: ", {"\"cart.y2\"", "there is no signal"});
   expect_one_line(refusal("{rate limit: cart.x, time: 1 s}"), place + ": ", {"most"});
   expect_one_line(refusal("{rate limit: cart.x, time: 1 s, most: [1 m/s, 2 m/s]}"), place + ".most: ", {"no way down"});
   expect_one_line(refusal("{lagg: cart.x, time: 1 s}"), place + ".lagg: ", {"Did you mean \"lag\"?"});
   expect_one_line(refusal("{lag: cart.x, time: 1 s, gains: [1, 2, 3]}"), place + ".gains: ", {"does not belong to lag but to pid"});
+}
+
+// The line and key that is wrong, not those of the force that uses the state, and in the words of the scene.
+TEST(NamedStates, AWrongUnitIsFoundWhereItStands) {
+  const auto refusal = [](const std::string& state) {
+    return pintle_test::refusal_by([&] {
+      build(scene(still + "forces: {push: {force: [u, 0], at: cart}}\nstates:\n  other: {lag: 2 m, time: 1 s}\n  u: " + state + "\n"));
+    });
+  };
+  const std::string u = "scene.yaml:9: states.u", gains = "gains: [1 N/m, 2 N/m/s, 3 N s/m], filter: 2 ms";
+  expect_one_line(refusal("{pid: other - cart.x, gains: [1 N/m, 2 N/m, 3 N s/m], filter: 2 ms}"),
+                  u + ".gains[2]: ", {"\"2 N/m\" times the error's integral is ", "expected a force [N]"});
+  expect_one_line(refusal("{pid: other - cart.x, gains: [1 N/m, 2 N/m/s, 3 N/m], filter: 2 ms, limits: [-1 N, 1 N]}"),
+                  u + ".gains[3]: ", {"\"3 N/m\" times the error's rate is ", "expected a force [N]"});
+  expect_one_line(refusal("{pid: other - cart.x, " + gains + ", limits: [-9 N m, 9 N m]}"),
+                  u + ".limits[1]: ", {"\"-9 N m\" is a torque or energy [N*m]; expected a force [N]"});
+  expect_one_line(refusal("{pid: other - cart.x, " + gains + ", limits: [-9 N, 9 N], start: 1 N m}"), u + ".limits", {"expected a torque"});
+  expect_one_line(refusal("{pid: other - cart.angle, " + gains + "}"),
+                  u + ".pid: ", {"\"other - cart.angle\"", "- mixes a length [m] and an angle"});
+  expect_one_line(refusal("{pid: other - cart.ax, " + gains + "}"), u + ".pid: ", {"cart.ax follows from the accelerations"});
+  expect_one_line(refusal("{lag: cart.ax, time: 1 s}"), u + ".lag: ", {"cart.ax follows from the accelerations"});
+  expect_one_line(refusal("{lag: cart.x + 1 N, time: 1 s}"), u + ".lag: ", {"\"cart.x + 1 N\"", "+ mixes a length [m] and a force [N]"});
+  expect_one_line(refusal("{lag: cart.x, time: 1 s, start: 2 N}"), u + ".start: ", {"a force [N]; expected a length [m]"});
+  expect_one_line(refusal("{rate limit: cart.x + 1 N, time: 1 s, most: 1 N/s}"), u + ".rate limit: ", {"+ mixes"});
+}
+
+TEST(NamedStates, AnEventSetsTheStatesOfAControllerAndIsToldThem) {
+  const auto refusal = [](const std::string& gains) {
+    return pintle_test::refusal_by(
+        [&] { build(scene(still + "states: {u: {pid: cart.x, " + gains + "}}\nevents: {e: {when: t > 1 s, do: {set: {u: 1 N}}}}\n")); });
+  };
+  const std::string place = "scene.yaml:7: events.e.do.set.u: ";
+  expect_one_line(refusal("gains: [1 N/m, 2 N/m/s, 0]"), place, {"\"u\" is no state", "set one of its states: \"u integral\""});
+  expect_one_line(refusal("gains: [1 N/m, 2 N/m/s, 3 N s/m], filter: 2 ms"), place, {"\"u integral\" or \"u filter\""});
+  expect_one_line(refusal("gains: [1 N/m, 0, 0]"), place, {"\"u\" is no state", "set a state or a parameter"});
 }
 
 }  // namespace

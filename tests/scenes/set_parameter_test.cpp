@@ -69,6 +69,9 @@ TEST(SetParameter, WhereAValueIsMadeOnceItIsRefusedByName) {
                   "scene.yaml:9: events.e.do.set.kk: ", {"there is no state \"kk\"", "Did you mean \"k\"?"});
   expect_one_line(refusal(swing + "events: {e: {when: t > 1 s, do: {set: {k: 2 kg}}}}\n"),
                   "scene.yaml:9: events.e.do.set.k: ", {"expected"});
+  // what an event sets is a parameter and a state: named once
+  expect_one_line(refusal(swing + "events: {e: {when: t > 1 s, do: {set: {gain: 2, k: 2 N m}}}}\n"),
+                  "scene.yaml:9: events.e.do.set.gain: ", {"Known here: k or mass."});
 }
 
 }  // namespace

@@ -121,6 +121,9 @@ TEST(Quantity, UnknownNameSuggestsTheNearest) {
   expect_says(refusal("gpa"), {"Did you mean \"GPa\"?"});
   expect_says(refusal("sine(1)"), {"no function \"sine\"", "Did you mean \"sin\"?"});
   expect_says(refusal("50 Hz"), {"Hz"});
+  const std::string no_time = refusal("two kg");  // t is not offered where it may not stand
+  expect_says(no_time, {"character 1: \"two\" is neither", "Known here: pi"});
+  EXPECT_EQ(no_time.find("t, pi"), std::string::npos) << no_time;
 }
 
 TEST(Quantity, NonFiniteValuesAreRefused) {

@@ -253,7 +253,9 @@ void keep_outputs_of(const Model& model, Model& told) {
         const auto found = std::ranges::find(are, were[static_cast<std::size_t>(input.index)]);
         input.index = found == are.end() ? -1 : static_cast<int>(found - are.begin());
       }
-      told_of = told_of && input.index >= 0;
+      const bool of_state = input.from == WrittenOutput::Input::signal &&
+                            model.system.signals[static_cast<std::size_t>(input.index)].kind == MotionSignal::state;
+      told_of = told_of && input.index >= 0 && !of_state;
     }
     if (!told_of) continue;
     now[k] = static_cast<int>(told.outputs.size());
@@ -265,13 +267,18 @@ void keep_outputs_of(const Model& model, Model& told) {
 
 Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
   require_driven(scene, model, assembly);
-  Model told = model;  // what is written: no forces
-  told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.stresses.clear();
+  Model told = model;  // what is written: no forces, and no states, which would follow from rates over time
+  told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.system.frictions.clear();
+  told.system.internal.clear(), told.system.states.clear(), told.stresses.clear();
   keep_outputs_of(model, told);
   Run run;
   run.warnings = model.warnings;
   if (!model.system.contacts.empty())
     run.warnings.push_back("contacts of profiles are ignored, because kinematics computes no forces; to include them, use `pintle run`");
+  if (!model.system.states.empty())
+    run.warnings.push_back(
+        "the scene's states, and outputs that name them, are left out, because kinematics follows the drivers alone; to include them, use "
+        "`pintle run`");
   DrivenMotion motion(model.system, assembly.start);
   const auto advance = [&](double t) {
     if (!motion.advance(t)) return false;

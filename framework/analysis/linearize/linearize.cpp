@@ -11,6 +11,7 @@
 #include "framework/analysis/linearize/steady_axes.h"
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
+#include "framework/common/text.h"
 #include "framework/common/work_done.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/configuration/assemble.h"
@@ -123,10 +124,11 @@ void add_zero_modes(const System& system, const std::vector<QuadraticRoot>& root
 }
 
 // Coefficients that change by `drift` in `window` make amplitudes grow or decay at that rate, which is not a growth of the motion.
-std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, const SmallMotion& size, const Linearization& lin) {
+std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, const SmallMotion& moving, const SmallMotion& size,
+                                 const Linearization& lin) {
   const double pace = lin.coefficients != Coefficients::frozen && lin.window > 0 ? lin.drift / lin.window : 0;
   std::vector<LinearMode> out;
-  const std::vector<QuadraticRoot> roots = roots_of(lin.motion, size);
+  const std::vector<QuadraticRoot> roots = roots_of(moving, size);
   add_zero_modes(system, roots, lin, out);
   for (const QuadraticRoot& r : roots) {
     if (r.zero || r.lambda.imag() < 0) continue;
@@ -141,6 +143,16 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
   }
   for (LinearMode& mode : out) name_carrier(system, here, lin.coordinates, mode);
   return out;
+}
+
+// "load" has, of the names with units.
+std::string held_states(const MotionAt& here, const std::vector<int>& held) {
+  std::string out;
+  for (const int i : held) {
+    const std::string& name = here.x_names[at(i)];
+    out += (out.empty() ? "" : ", ") + quoted(name.substr(0, name.rfind(" [")));
+  }
+  return out + (held.size() > 1 ? " have" : " has");
 }
 
 // Surfaces that overlap although the state contains no impact, as at a start.
@@ -269,8 +281,10 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
   out.motion = free.project(here);
   out.Z = free.X.leftCols(free.m());
   out.contacts = contacts_of(system, here);
+  std::vector<int> held;
   try {
-    out.modes = modes_of(system, here, sizes(free, here), out);
+    const SmallMotion moving = without_held(out.motion, out.motion.G_x.rows() - static_cast<Index>(system.states.size()), held);
+    out.modes = modes_of(system, here, moving, sizes(free, here), out);
     out.space = state_space(model, system, here, free, out.motion, out.coordinates);
   } catch (const SceneError&) {
     throw;
@@ -278,6 +292,7 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
     throw AssemblyError(scene.file, {}, std::string("t = ") + text(state.t, 6) + " s: " + e.what());
   }
   add_notes(scene, system, here, laws, out);
+  if (!held.empty()) out.notes.push_back(held_states(here, held) + " no mode: here nothing changes it, or it changes nothing");
   return out;
 }
 

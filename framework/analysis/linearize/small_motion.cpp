@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "framework/common/dense.h"
 #include "framework/dynamics/equations/tangent.h"
@@ -71,6 +72,26 @@ std::vector<int> others(Index n, const std::vector<int>& some) {
 }
 
 }  // namespace
+
+SmallMotion without_held(SmallMotion s, Index first, std::vector<int>& held) {
+  std::vector<int> moving(static_cast<std::size_t>(s.G_x.rows()));
+  std::iota(moving.begin(), moving.end(), 0);
+  const auto is_held = [&](int i) {
+    const bool unchanged = s.G_p.row(i).isZero(0) && s.G_v.row(i).isZero(0) && s.G_x(i, moving).isZero(0);
+    return i >= first && (unchanged || (s.F.col(i).isZero(0) && s.G_x(moving, i).isZero(0)));
+  };
+  for (auto one = std::ranges::find_if(moving, is_held); one != moving.end(); one = std::ranges::find_if(moving, is_held))
+    moving.erase(one);  // what only this one changes is held too
+  held = others(s.G_x.rows(), moving);
+  if (held.empty()) return s;
+  return {s.M,
+          s.D,
+          s.K,
+          MatrixXd(s.F(Eigen::all, moving)),
+          MatrixXd(s.G_p(moving, Eigen::all)),
+          MatrixXd(s.G_v(moving, Eigen::all)),
+          MatrixXd(s.G_x(moving, moving))};
+}
 
 MotionAt::MotionAt(const System& system, const State& at) : state(at), eq(system) {
   VectorXd dy(system.n_y());

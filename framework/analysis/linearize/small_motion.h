@@ -16,6 +16,11 @@ struct SmallMotion {
   Eigen::MatrixXd F = {}, G_p = {}, G_v = {}, G_x = {};
 };
 
+/// Without states x whose root is exactly 0 and no motion: nothing here changes them, as a parameter that events set, or they change
+/// nothing, as a counter. The other roots stay as they are.
+/// @param first  the first of x that may be left out  @param held  indices into x of those left out, rising
+SmallMotion without_held(SmallMotion, Eigen::Index first, std::vector<int>& held);
+
 /// The equations of motion at a state: accelerations and derivatives of the residual, n × n.
 struct MotionAt {
   MotionAt(const System&, const State&);

@@ -12,11 +12,13 @@ namespace pintle {
 
 namespace {
 
-[[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary) {
+// @param in_time  its variable may stand there
+[[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary, bool in_time) {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
-  std::vector<std::string> known{std::string(vocabulary.variable), "pi"}, all;  // names to list in messages; and also units and signals
+  std::vector<std::string> known{"pi"}, all;  // names to list in messages; and also units and signals
+  if (in_time) known.insert(known.begin(), std::string(vocabulary.variable));
   for (const auto& [parameter, value] : vocabulary.parameters) known.push_back(parameter);
   if (vocabulary.signals)
     for (const auto& [signal, what] : *vocabulary.signals) (signal.find('.') == std::string::npos ? known : all).push_back(signal);
@@ -84,7 +86,7 @@ int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   }
   if (name == "pi") return formula.constant({std::numbers::pi, {}});
   if (const Unit* u = known.unit(name)) return formula.constant({u->factor, u->dimension});
-  unknown(name, known);
+  unknown(name, known, true);
 }
 
 int result_of(const FormulaStep& step, std::span<const int> x, const Vocabulary& known, Formula& formula) {
@@ -162,10 +164,25 @@ bool contains_time(const std::vector<Word>& words) {
   return std::ranges::any_of(words, [](const Word& w) { return w.text == "t"; });
 }
 
+// In a value that cannot change in time.
+void must_know(const std::vector<Word>& words, const Vocabulary& known) {
+  for (const Word& word : words) {
+    const std::string& name = word.text;
+    if (word.kind != Word::Kind::name || name == known.variable || name == "pi" || known.parameters.contains(name) || known.unit(name))
+      continue;
+    try {
+      unknown(name, known, false);
+    } catch (const ExpressionError& error) {
+      throw ExpressionError(error.what(), word.at);
+    }
+  }
+}
+
 Quantity evaluated(std::string_view text, const Vocabulary& known) {
   try {
     Formula formula(dimension::time);
     const std::vector<Word> words = spell(text, known);
+    must_know(words, known);
     const int root = build(parse(words), known, formula);
     if (formula.uses_time()) throw ExpressionError("it depends on t, but this value cannot change in time");
     return formula.quantity(root);

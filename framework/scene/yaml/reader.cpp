@@ -137,8 +137,9 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_drivers(root, folder, scene);
   make_parameters_states(source, scene);
   read_states(root, scene);
-  read_forces(root, folder, scene);
+  read_forces(root, scene);
   read_state_rates(root, scene);
+  read_force_laws(root, folder, scene);
   read_outputs(root, scene);
   read_events(root, scene);
   read_start(root, scene);

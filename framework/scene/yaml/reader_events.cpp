@@ -30,11 +30,23 @@ Law read_event_law(const Node& node, const Dimension& expected, const SignalName
   }
 }
 
+// An output follows from what it is made of; a PID controller is one, of its states.
+void refuse_output(const Node& node, const std::string& name, const Scene& scene) {
+  const auto output = std::ranges::find(scene.outputs, name, &SceneOutput::name);
+  if (output == scene.outputs.end()) return;
+  std::vector<std::string> parts;
+  for (const SceneState& s : scene.states)
+    if (s.place.key == output->place.key) parts.push_back("\"" + s.name + "\"");
+  node.fail("\"" + name + "\" is no state but follows from others" +
+            (parts.empty() ? "; set a state or a parameter that it names" : "; set one of its states: " + listed(parts)));
+}
+
 std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const Scene& scene, const SignalNames& names) {
   std::vector<std::pair<std::string, Law>> out;
   for (const Node& node : group.entries("names of states and their new values: {integral: 0}")) {
     const std::string name = resolved(node.source(), node.yaml().scope, {node.name(), ""}).part;
     if (std::ranges::find(scene.states, name, &SceneState::name) == scene.states.end()) {
+      refuse_output(node, name, scene);
       std::vector<std::string> known;
       for (const SceneState& s : scene.states) known.push_back(s.name);
       for (const auto& [parameter, value] : scene.parameters) known.push_back(parameter);

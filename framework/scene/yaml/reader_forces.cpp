@@ -155,10 +155,9 @@ void read_drivers(const Node& root, const std::filesystem::path& folder, Scene& 
   }
 }
 
-void read_forces(const Node& root, const std::filesystem::path& folder, Scene& scene) {
+void read_forces(const Node& root, Scene& scene) {
   if (!root.has("forces")) return;
-  const std::vector<Node> entries = root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}");
-  for (const Node& node : entries) {
+  for (const Node& node : root.at("forces").entries("names and forces: {load: {force: [0, -10 N], at: crank.A}}")) {
     SceneLoad load{checked_name(node), {}, node.place()};
     check_keys(node, "forces.*");
     switch (which_kind(node, force_kinds)) {
@@ -172,7 +171,12 @@ void read_forces(const Node& root, const std::filesystem::path& folder, Scene& s
     load.engaged = read_engaged(node);
     scene.loads.push_back(std::move(load));
   }
+}
+
+void read_force_laws(const Node& root, const std::filesystem::path& folder, Scene& scene) {
+  if (!root.has("forces")) return;
   ActingSignals signals(root, scene);
+  const std::vector<Node> entries = root.at("forces").entries("");
   for (std::size_t i = 0; i < entries.size(); ++i)
     read_laws_of(entries[i], folder, end_of_run(scene), signals, scene.loads[scene.loads.size() - entries.size() + i]);
 }

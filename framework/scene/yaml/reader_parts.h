@@ -19,13 +19,14 @@ void read_bodies(const Node& root, Scene&);  ///< ground and bodies; after mater
 void read_joints(const Node& root, Scene&);
 void read_contacts(const Node& root, Scene&);  ///< after bodies
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
-void read_states(const Node& root, Scene&);                                       ///< but their rates; before forces and outputs
-void read_forces(const Node& root, const std::filesystem::path& folder, Scene&);  ///< after everything that has signals
-void read_state_rates(const Node& root, Scene&);                                  ///< after forces
-void read_outputs(const Node& root, Scene&);                                      ///< after state rates
-void read_events(const Node& root, Scene&);                                       ///< after everything that they act on
-void read_start(const Node& root, Scene&);                                        ///< after bodies and joints
-void read_static(const Node& root, Scene&);                                       ///< after bodies
+void read_states(const Node& root, Scene&);                                           ///< but their rates; before forces and outputs
+void read_forces(const Node& root, Scene&);                                           ///< but their laws; after everything that has signals
+void read_state_rates(const Node& root, Scene&);                                      ///< after forces
+void read_force_laws(const Node& root, const std::filesystem::path& folder, Scene&);  ///< after what states are made of
+void read_outputs(const Node& root, Scene&);                                          ///< after state rates
+void read_events(const Node& root, Scene&);                                           ///< after everything that they act on
+void read_start(const Node& root, Scene&);                                            ///< after bodies and joints
+void read_static(const Node& root, Scene&);                                           ///< after bodies
 void read_run(const Node& root, Scene&);
 void read_output(const Node& root, Scene&);  ///< after run
 

@@ -157,20 +157,24 @@ std::optional<Dimension> dimension_if_known(const Node& node, const std::string&
   }
 }
 
+// Of a value of a state; a number without a unit says nothing.
+Dimension dimension_at(const Node& node, const char* key) {
+  if (!node.has(key)) return {};
+  const Node value = node.at(key);
+  return quantity_of(value.is_list() ? value.list(1, "the least and the greatest value [-9 N m, 9 N m]")[0] : value,
+                     "a value such as 0 rad s")
+      .dimension;
+}
+
 // A unit, or that of a value; what follows an expression has the expression's.
 Dimension dimension_of_state(const Node& node, const std::string& kind, const Scene& scene) {
   if (node.has("unit")) return quantity_of(node.at("unit"), "a unit such as rad s").dimension;
-  const auto in_unit = [&](const char* key) {
-    if (!node.has(key)) return Dimension{};
-    const Node value = node.at(key);
-    return quantity_of(value.is_list() ? value.list(1, "the least and the greatest value [-9 N m, 9 N m]")[0] : value,
-                       "a value such as 0 rad s")
-        .dimension;
-  };
-  const Dimension start = in_unit("start");
+  const Dimension start = dimension_at(node, "start");
   if (kind == "rate" || !bare(start)) return start;
-  if (const Dimension limits = in_unit("limits"); !bare(limits)) return limits;
+  if (const Dimension limits = dimension_at(node, "limits"); !bare(limits)) return limits;
   const std::string e = followed(node, kind.c_str());
+  if (kind == "rate limit" && !bare(dimension_at(node, "most")))
+    return dimension_if_known(node, e, scene).value_or(product(dimension_at(node, "most"), dimension::time));
   if (kind != "pid") return dimension_if_known(node, e, scene).value_or(Dimension{});
   const Gains k = gains_of(node);
   const std::string per_time = k.proportional.value != 0 ? exact_text(k.proportional) + "*" + e
@@ -194,6 +198,61 @@ void check_part_name(const Node& node, const std::string& part, const Scene& sce
 
 std::string hint_of_unit(const Node& node) {
   return node.has("unit") || node.has("start") || node.has("limits") ? "" : " (unit: says what " + node.name() + " is measured in)";
+}
+
+/// The value that says what a state is measured in.
+std::optional<Node> says_unit(const Node& node) {
+  for (const char* key : {"unit", "start", "limits"})
+    if (!bare(dimension_at(node, key))) return node.at(key).is_list() ? node.at(key).list(1, "")[0] : node.at(key);
+  return {};
+}
+
+[[noreturn]] void fail_for_unit(const Node& node, const std::string& subject, const Dimension& is, const Dimension& expected,
+                                const std::string& whose) {
+  node.fail(subject + " is " + describe(is) + "; expected " + describe(expected) + whose);
+}
+
+/// What each gain that is not 0 makes of the error e, with its place in the list.
+struct MadeByGain {
+  std::size_t gain;
+  Dimension dimension;
+};
+std::vector<MadeByGain> made_by_gains(const Node& node, const std::string& e, const SignalNames& names) {
+  const Gains k = gains_of(node);
+  const std::array<std::pair<Quantity, const char*>, 3> terms{{{k.proportional, "*"}, {k.integral, "*(1 s)*"}, {k.derivative, "/(1 s)*"}}};
+  std::vector<MadeByGain> out;
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    if (terms[i].first.value != 0)
+      out.push_back({i, read_measured_law(exact_text(terms[i].first) + terms[i].second + e, node.source().parameters, names).dimension});
+  return out;
+}
+
+void blame_gains(const Node& node, const std::string& e, const Dimension& d, const SignalNames& names) {
+  constexpr std::array of{"the error", "the error's integral", "the error's rate"};
+  const std::vector<MadeByGain> made = made_by_gains(node, e, names);
+  const auto fits = [&](const MadeByGain& one) { return same(one.dimension, d); };
+  const bool agree = std::ranges::all_of(made, [&](const MadeByGain& one) { return same(one.dimension, made.front().dimension); });
+  if (const auto unit = says_unit(node); unit && agree && !fits(made.front()))
+    fail_for_unit(*unit, unit->shown(), d, made.front().dimension, ", as gains make of the error");
+  const auto wrong = std::ranges::find_if_not(made, fits);
+  if (wrong == made.end()) return;
+  const Node gain = node.at("gains").items(3, "three gains")[wrong->gain];
+  fail_for_unit(gain, gain.shown() + " times " + of[wrong->gain], wrong->dimension, d, hint_of_unit(node));
+}
+
+/// Refuses the key whose value makes a state of a kind unreadable; returns where none is found.
+void blame_a_key(const Node& node, const std::string& kind, const Dimension& d, const SignalNames& names) {
+  const Node followed_at = node.at(kind);
+  const std::string e = followed_at.expression("an expression such as arm.angle");
+  try {
+    const Dimension of = read_measured_law(e, node.source().parameters, names).dimension;
+    if (kind == "pid") return blame_gains(node, "(" + e + ")", d, names);
+    if (same(of, d)) return;
+    if (const auto unit = says_unit(node)) fail_for_unit(*unit, unit->shown(), d, of, ", as what it follows");
+    fail_for_unit(followed_at, followed_at.shown(), of, d, hint_of_unit(node));
+  } catch (const ExpressionError& error) {
+    followed_at.fail(error.what());
+  }
 }
 
 }  // namespace
@@ -234,6 +293,7 @@ void read_state_rates(const Node& root, Scene& scene) {
     try {
       return read_law(text, d, node.source().parameters, &names);
     } catch (const ExpressionError& error) {
+      blame_a_key(node, state_kinds[which_kind(node, state_kinds)].kind, names.find(node.name())->second.dimension, names);
       node.fail(error.what() + hint_of_unit(node));
     }
   };
