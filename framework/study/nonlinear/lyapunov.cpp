@@ -1,6 +1,8 @@
 #include "framework/study/nonlinear/lyapunov.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <Eigen/QR>
@@ -106,23 +108,37 @@ class Neighbours {
   std::vector<std::unique_ptr<Integrator>> apart_;
 };
 
-/// Mean and standard error of rates, by the scatter of the means over batches of them, which hardly know of each other.
-Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
-  const std::size_t n = logs.size();
-  Exponent out;
-  for (const VectorXd& one : logs) out.value += one[j] / (static_cast<double>(n) * interval);
-  const std::size_t size = n / exponent_batches;
-  if (size == 0) {
-    out.error = std::numeric_limits<double>::quiet_NaN();
-    return out;
-  }
+/// By the scatter of the means over batches of intervals, which hardly know of each other.
+double scatter_of_batches(const std::vector<VectorXd>& logs, Index j, double interval, double value) {
+  const std::size_t n = logs.size(), size = n / exponent_batches;
   double squares = 0;
   for (std::size_t b = 0; b < exponent_batches; ++b) {
     double mean = 0;
     for (std::size_t k = 0; k < size; ++k) mean += logs[n - (b + 1) * size + k][j] / (static_cast<double>(size) * interval);
-    squares += (mean - out.value) * (mean - out.value);
+    squares += (mean - value) * (mean - value);
   }
-  out.error = std::sqrt(squares / (exponent_batches * (exponent_batches - 1.0)));
+  return std::sqrt(squares / (exponent_batches * (exponent_batches - 1.0)));
+}
+
+/// By where in its own rise and fall the time begins and ends: the range of the logarithm of the distance about its mean growth, over the
+/// time. Growth that comes again and again has no other error, and this one of 1/time is not seen by batches.
+double offset_of_ends(const std::vector<VectorXd>& logs, Index j, double interval, double value) {
+  double at = 0, least = 0, most = 0;
+  for (const VectorXd& one : logs) {
+    at += one[j] - value * interval;
+    least = std::min(least, at), most = std::max(most, at);
+  }
+  return (most - least) / (static_cast<double>(logs.size()) * interval);
+}
+
+/// Mean of rates, and its error.
+Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
+  const std::size_t n = logs.size();
+  Exponent out;
+  for (const VectorXd& one : logs) out.value += one[j] / (static_cast<double>(n) * interval);
+  out.error = n < exponent_batches
+                  ? std::numeric_limits<double>::quiet_NaN()
+                  : std::max(scatter_of_batches(logs, j, interval, out.value), offset_of_ends(logs, j, interval, out.value));
   return out;
 }
 
