@@ -35,9 +35,9 @@ struct LyapunovQuestion {
 
 /// Which periodic orbit is sought near the motion.
 struct CycleQuestion {
-  int period = 1;          ///< returns
-  double tolerance = 0;    ///< of a point that comes again, in coordinates over their scales; 0: a hundred times that of the run
-  double distance = 1e-6;  ///< of neighbours, likewise
+  int period = 1;        ///< returns
+  double tolerance = 0;  ///< of a point that comes again, in coordinates over their scales; 0: a hundred times that of the run
+  double distance = 0;   ///< of neighbours, likewise; 0: the best of several
 };
 
 struct OrbitQuestion {
@@ -59,7 +59,8 @@ struct ImpactFigures {
 };
 inline constexpr double grazing_share = 0.05;
 
-/// An exponent, and the standard error of its mean over batches of the intervals [1/s]. Of fewer intervals than batches it is NaN.
+/// An exponent, and its error [1/s]: the greater of the standard error of the mean over batches of the intervals, and what the beginning
+/// and the end of the time leave. Of fewer intervals than batches it is NaN.
 struct Exponent {
   double value = 0, error = 0;
 };
@@ -73,6 +74,7 @@ struct Cycle {
   double period = 0;                         ///< [s]
   double least = 0;                          ///< returns after which it closes first
   std::vector<double> re, im;                ///< of its Floquet multipliers, the greatest modulus first
+  std::vector<double> error;                 ///< of each, how far it may be off; NaN: not known
   double continued = 0;                      ///< 1: from the orbits of the values before; 0: from the motion
   std::vector<double> point_before;          ///< of the value before, if continued from it, with its parameter
   double x_before = 0;
