@@ -283,7 +283,7 @@ std::string difference(const std::string& saved, const std::string& now) {
   std::string out;
   if (!words.empty())
     out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " + listed(words) +
-          (words.size() > 1 ? " are others" : " is another");
+          (words.size() > 1 ? " differ" : " differs");
   if (!files.empty()) out += (out.empty() ? "" : ", and ") + std::string("a file that the scene names has changed since: ") + listed(files);
   if (!out.empty()) return out + remedy;
   if (part("mechanism") == is["mechanism"]) return "";
