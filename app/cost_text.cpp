@@ -73,7 +73,7 @@ void print_cost(const CostEstimate& p, double build_seconds) {
   Rows rows{{"  an evaluation runs", join(p.terms)}};
   if (p.largest_rate > 0) rows.emplace_back("  largest frequency", frequency(p.largest_rate) + ", " + p.largest_rate_of);
   if (p.contact_rate > 0) rows.emplace_back("  of a slow contact", frequency(p.contact_rate));
-  rows.emplace_back("  steps", steps_text(p.run) + " of " + duration(p.run.step) + " on average");
+  rows.emplace_back("  steps", steps_text(p.run) + ", each " + duration(p.run.step) + " of the motion on average");
   const std::string frames = o.frames > 0 ? ", " + std::to_string(o.frames) + " frames " + duration(o.frames * o.frame_seconds) : "";
   rows.emplace_back("  processor time", about(p.seconds, duration) + ": computing " + duration(p.run.seconds.likely) + ", " +
                                             std::to_string(o.rows) + " rows " + duration(static_cast<double>(o.rows) * o.row_seconds) +

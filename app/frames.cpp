@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -154,14 +157,44 @@ Drawing read_lines(const fs::path& file) {
   return drawing;
 }
 
+/// Of a run that was killed, before it could list them: frames/00012.vtu, with its bodies in frames/rod_00012.vtu. Each is whole.
+std::vector<FrameFiles> unlisted_frames(const fs::path& folder) {
+  std::map<long, FrameFiles> out;
+  std::vector<std::pair<long, fs::path>> bodies;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() != ".vtu") continue;
+    const std::string stem = entry.path().stem().string();
+    const std::size_t after = stem.find_last_not_of("0123456789") + 1;  // 0: digits only
+    if (after == stem.size()) continue;
+    const long number = std::atol(stem.c_str() + after);
+    if (after == 0)
+      out[number] = {read_lines(entry.path()).t, entry.path(), {}};
+    else
+      bodies.emplace_back(number, entry.path());
+  }
+  std::ranges::sort(bodies);
+  for (const auto& [number, file] : bodies)
+    if (const auto frame = out.find(number); frame != out.end()) frame->second.others.push_back(file);
+  std::vector<FrameFiles> frames;
+  for (auto& [number, files] : out) frames.push_back(std::move(files));
+  if (!bodies.empty() && frames.size() > 1) frames.pop_back();  // not all of its bodies may be there
+  return frames;
+}
+
 }  // namespace
 
 std::vector<FrameFiles> frames_of(const fs::path& directory) {
   const fs::path pvd = directory / "mechanism.pvd";
   if (!fs::is_directory(directory))
     throw std::runtime_error(directory.string() + ": no such folder; name one that `pintle run` has written");
-  if (!fs::is_regular_file(pvd))
-    throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd); run its scene again with --set output.frames=100");
+  if (!fs::is_regular_file(pvd)) {
+    std::vector<FrameFiles> kept = unlisted_frames(directory / "frames");
+    if (kept.empty())
+      throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd); run its scene again with --set output.frames=100");
+    std::cerr << directory.string() << ": the run did not finish; its frames end at " << kept.back().t << " s\n";
+    return kept;
+  }
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   std::vector<FrameFiles> frames;

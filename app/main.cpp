@@ -23,8 +23,8 @@ using namespace pintle::app;
 constexpr const char* exit_codes =
     "Exit codes\n"
     "  0  done\n"
-    "  1  a file or directory cannot be read or written, or there is not enough memory; what was computed is kept, and its place is named\n"
-    "  2  the scene or the command line is wrong\n"
+    "  1  results cannot be read or written, or there is not enough memory; what was computed is kept, and its place is named\n"
+    "  2  the command line is wrong, or a scene, a study or a file that these name is: also if it is missing or cannot be read\n"
     "  3  the mechanism cannot be assembled\n"
     "  4  the integration failed, of check: when tried out, of sweep and nonlinear: in every case, of sensitivity: in any; of\n"
     "     nonlinear: there were too few returns at every value; of tradeoff: the accuracy asked for could not be shown; of fit: the goal\n"

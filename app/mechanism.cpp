@@ -121,6 +121,8 @@ class Recording {
         files_(directory, model),
         identity_(identity(scene, model, assembly)),
         kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
+    files_.flush();  // what a kill leaves has headings, and says of what scene it is
+    write_text(directory_ / "run.json", begun_json(scene));
     if (scene.output.frames < 2) return;
     writer_.emplace(directory);
     drafting_.emplace(scene, model);

@@ -60,8 +60,18 @@ void add_impacts(const ImpactFigures& f, std::size_t returns, Rows& rows) {
   if (f.grazing > 0) rows.emplace_back("grazing", number(f.grazing) + " impacts slower than 5 % of the median");
 }
 
+/// Of a value the digits that its error leaves, one at least.
+std::string known_digits(double x, double error) {
+  constexpr int most = 6;
+  if (!(error > 0) || x == 0) return number(x);
+  return number(x, std::clamp(static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(error))) + 1, 1, most));
+}
+
 std::string multiplier_text(const Cycle& cycle, std::size_t j) {
-  return number(cycle.re[j]) + (cycle.im[j] == 0 ? "" : (cycle.im[j] < 0 ? " - " : " + ") + number(std::abs(cycle.im[j])) + "i");
+  const auto known = [&](double x) { return known_digits(x, cycle.error[j]); };
+  const std::string value =
+      known(cycle.re[j]) + (cycle.im[j] == 0 ? "" : (cycle.im[j] < 0 ? " - " : " + ") + known(std::abs(cycle.im[j])) + "i");
+  return value + ", modulus " + known(cycle.modulus(j)) + (std::isnan(cycle.error[j]) ? "" : ", error below " + number(cycle.error[j], 2));
 }
 
 /// The periodic orbit of the only value.
@@ -71,7 +81,7 @@ void add_orbit(const Cycle& cycle, Rows& rows) {
   rows.emplace_back("orbit", stability_word(stability(cycle)) + ", period " + number(cycle.period) + " s");
   if (cycle.least < static_cast<double>(cycle.signals.size())) rows.emplace_back("", "it closes after " + number(cycle.least) + " returns");
   for (std::size_t j = 0; j < std::min(cycle.re.size(), most_told); ++j)
-    rows.emplace_back("multiplier " + std::to_string(j + 1), multiplier_text(cycle, j) + ", modulus " + number(cycle.modulus(j)));
+    rows.emplace_back("multiplier " + std::to_string(j + 1), multiplier_text(cycle, j));
   if (cycle.re.size() > most_told) rows.emplace_back("", "and " + counted(cycle.re.size() - most_told, "smaller one") + ": orbits.csv");
 }
 

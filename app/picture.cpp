@@ -38,8 +38,13 @@ struct Choice {
 
 const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& choice) {
   const int count = static_cast<int>(frames.size()), n = choice.frame < 0 ? count + choice.frame : choice.frame;
-  if (!std::isnan(choice.time))
+  if (!std::isnan(choice.time)) {
+    const double first = frames.front().t, last = frames.back().t, off = 1e-9 * std::abs(last - first);
+    if (choice.time < first - off || choice.time > last + off)
+      std::cerr << "warning: --time " << choice.time << ": the frames of " << choice.drawn.directory.string() << " are from " << first
+                << " to " << last << " s; the nearest is drawn\n";
     return *std::ranges::min_element(frames, {}, [&](const FrameFiles& frame) { return std::abs(frame.t - choice.time); });
+  }
   if (n < 0 || n >= count)
     throw std::invalid_argument("--frame: " + choice.drawn.directory.string() + " has " + std::to_string(count) + " frames, 0 to " +
                                 std::to_string(count - 1) + "; asked for " + std::to_string(choice.frame));

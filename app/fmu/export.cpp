@@ -31,10 +31,14 @@ constexpr const char* licence =
     "The shared library of this unit is Pintle, free software under the GNU General Public License, version 3 or any later\n"
     "version: who gets the unit may have the program's source. The scene in resources/ is its author's own.\n";
 
-/// A name in C of what the scene's file is called.
+/// What the scene's file is called, without its endings.
+std::string name_of(const fs::path& scene) {
+  return (scene.stem().has_extension() ? scene.stem().stem() : scene.stem()).string();  // NAME.pintle.yaml
+}
+
+/// A name in C of it.
 std::string identifier_of(const fs::path& scene) {
-  std::string out = scene.stem().string();
-  if (scene.stem().has_extension()) out = scene.stem().stem().string();  // NAME.pintle.yaml
+  std::string out = name_of(scene);
   for (char& c : out)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) ? "scene_" + out : out;
@@ -89,7 +93,7 @@ ExportedFmu export_fmu(const FmuOrder& order) {
   }
   out.contents.token = token_of(out.contents, files);
   const std::string identifier = identifier_of(order.scene);
-  out.file = order.out.empty() ? fs::path(identifier + ".fmu") : order.out;
+  out.file = order.out.empty() ? fs::path(name_of(order.scene) + ".fmu") : order.out;
   const std::string library = read_file(file_beside_modules("libpintle_fmu.so"), std::numeric_limits<std::size_t>::max());
   ZipFile zip(out.file);
   zip.add("modelDescription.xml", model_description(out.contents, identifier));

@@ -229,11 +229,11 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   const EventOutcome outcome = events_.act(event, step_, wish);
   // What an event that fails leaves is of no use: the last row is of what was before it.
   const auto undo = [&] { step_.to.state.y = step_.y_before; };
+  if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   if (!outcome.failure.empty()) {
     undo();
     return stop(outcome.failure, step_.to.state.t);
   }
-  if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   row_ = outcome.row, save_ = outcome.save;
   ended_ = outcome.end;
   if (laws_ && outcome.change >= EventOutcome::Change::jump) laws_->find_sides(step_.to.state);

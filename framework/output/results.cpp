@@ -181,6 +181,13 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
   return text_with_scene(out, scene);
 }
 
+std::string begun_json(const Scene& scene) {
+  const Json out = {{"program", "pintle"},       {"version", PINTLE_VERSION}, {"title", scene.title},
+                    {"file", scene.file},        {"status", "unfinished"},    {"reason", "the run is going on, or the program was killed"},
+                    {"warnings", Json::array()}, {"scene", scene_json(scene)}};
+  return json_text(out) + "\n";
+}
+
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& cost) {
   std::vector<std::string> warnings = model.warnings;
   for (std::string& w : warnings_of(model, assembly)) warnings.push_back(std::move(w));

@@ -25,6 +25,16 @@ void require_new(const fs::path& directory) {
   if (fs::exists(there)) throw std::runtime_error(directory.string() + ": exists already; name another directory with --out, or remove it");
 }
 
+/// A folder of an unused name like `path`. What the user has named is `final`: if it fails, this is said of it.
+fs::path made_beside(const fs::path& path, const fs::path& final) {
+  try {
+    return make_unique_folder(path);
+  } catch (const FileError&) {
+    const int why = errno;
+    throw FileError(final, why, "cannot be made");
+  }
+}
+
 void require_short_names(const fs::path& directory) {
   for (const fs::path& part : directory)
     if (part.native().size() > NAME_MAX) throw FileError(directory, ENAMETOOLONG, "cannot be made");
@@ -83,8 +93,7 @@ void require_writable(const fs::path& directory) {
   const fs::path above = nearest_that_exists(final);
   std::error_code error;
   if (!fs::is_directory(above, error)) throw FileError(final, ENOTDIR, "cannot be made");
-  const fs::path probe = make_unique_folder(above / ".pintle");
-  ::rmdir(probe.c_str());
+  ::rmdir(made_beside(above / ".pintle", final).c_str());
 }
 
 ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_slash(directory)) {
@@ -93,7 +102,7 @@ ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_s
   std::error_code error;
   if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), error);
   if (error) throw FileError(final_.parent_path(), error.value(), "cannot be made");
-  staging_ = make_unique_folder(final_);
+  staging_ = made_beside(final_, final_);
   try {
     frames_ = staging_ / "frames";
   } catch (...) {

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "framework/report/description.h"
+
 namespace pintle {
 
 namespace {
@@ -51,10 +53,16 @@ bool CsvReader::read_record() {
   ++lines_;
   const auto in_quotes = [this] { return std::ranges::count(record_, '"') % 2 == 1; };
   for (std::string more; in_quotes(); record_ += '\n' + more) {
-    if (!std::getline(in_, more)) fail("a quotation mark is not closed");
+    if (!std::getline(in_, more)) {
+      if (is_unfinished(file_.parent_path())) return false;
+      fail("a quotation mark is not closed");
+    }
     ++lines_;
   }
-  if (in_.eof()) fail("the line is cut off: it has no newline");
+  if (in_.eof()) {
+    if (is_unfinished(file_.parent_path())) return false;  // whole records count
+    fail("the line is cut off: it has no newline");
+  }
   if (!record_.empty() && record_.back() == '\r') record_.pop_back();
   return true;
 }

@@ -34,6 +34,11 @@ std::optional<Description> description(const std::filesystem::path& directory, c
   }
 }
 
+bool is_unfinished(const std::filesystem::path& directory) {
+  const auto run = description(directory, "run");
+  return run && run->json.value("status", std::string()) == "unfinished";
+}
+
 nlohmann::ordered_json facts(const Description& results, std::size_t most_text) {
   nlohmann::ordered_json out = nlohmann::ordered_json::object();
   for (const auto& [name, value] : results.json.items()) {

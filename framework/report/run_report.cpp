@@ -152,10 +152,11 @@ std::string motion_page(const Description& results, const fs::path& directory, c
   const ReducedTable trajectory = reduced_by_column(directory / "trajectory.csv", limits.trajectory, drawn_columns(model));
   require_columns(directory / "trajectory.csv", trajectory, needed_columns(model));
   const std::string title = scene.title.empty() ? directory.filename().string() : scene.title;
-  Json out{{"title", title},
-           {"run", facts(results, limits.text)},
-           {"model", drawn_model_json(scene, model, limits.meshes)},
-           {"trajectory", table_json(trajectory)}};
+  Json run = facts(results, limits.text);
+  if (is_unfinished(directory) && !trajectory.sheets.empty() && !trajectory.sheets[0].t.empty())
+    run["reached [s]"] = trajectory.sheets[0].t.back();
+  Json out{
+      {"title", title}, {"run", run}, {"model", drawn_model_json(scene, model, limits.meshes)}, {"trajectory", table_json(trajectory)}};
   if (results.question == "run" || fs::exists(directory / "ledger.csv")) {
     out["ledger"] = table_json(reduced_by_row(directory / "ledger.csv", limits.ledger));
     out["events"] = events_json(directory / "events.csv", limits.events);
@@ -171,7 +172,8 @@ std::string report_page(const fs::path& directory, const ReportLimits& limits) {
   if (const auto out = table_page(directory, limits.rows, limits.text)) return *out;
   throw ResultsError(directory.string() + ": contains no results" +
                      (fs::is_directory(directory) ? "" : ", because there is no such folder") +
-                     "; name a folder written by `pintle run`, kinematics, inverse, sweep, tradeoff, linearize or modes");
+                     "; name a folder written by `pintle run`, kinematics, inverse, sweep, tradeoff, linearize or modes" +
+                     (fs::exists(directory / "trajectory.csv") ? ". It has a trajectory.csv: pintle plot shows its columns" : ""));
 }
 
 }  // namespace pintle

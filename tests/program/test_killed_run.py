@@ -83,6 +83,22 @@ class KilledRun(unittest.TestCase):
                                   capture_output=True, text=True)
             self.assertIn(folder.name + (f" (to t = {reached:.6g} s)" if reached > 0 else ""), said.stderr)
 
+    def test_what_is_there_is_shown_and_where_it_ends(self):
+        frames = scene.replace("states: 2 s", "frames: 20001")  # one each second of the motion
+        (self.place / "scene.yaml").write_text(frames)
+        left = self.killed(600).rename(self.place / "kept")  # 3 s
+        done = subprocess.run([pintle, "report", "kept"], cwd=self.place, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("unfinished", (left / "report.html").read_text())
+        with (left / "trajectory.csv").open("ab") as table:
+            table.write(b"9999,1,2")  # a row that the kill has cut
+        self.assertEqual(subprocess.run([pintle, "report", "kept"], cwd=self.place).returncode, 0)
+        if not (Path(pintle).parent / "pintle-picture").exists():
+            return
+        done = subprocess.run([pintle, "picture", "kept", "last.png", "--frame", "1"], cwd=self.place, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "kept: the run did not finish; its frames end at [0-9]+ s")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -59,6 +59,63 @@ class Manners(unittest.TestCase):
         self.assertRegex(said, "events that never came +far\n")
         self.assertRegex(said, "event down +[0-9.e-]+ s: ")
 
+    def test_an_event_that_fails_came(self):
+        (self.place / "events.yaml").write_text(pendulum.replace("until: 0.1 s", "until: 1 s") + "states: {X: {rate: 1/(1 s), start: 0}}\n"
+                                                "events: {jump: {when: X > 0.05, do: {set: {X: 1/(X - X)}}}}\n")
+        said = self.say("run", "events.yaml")
+        self.assertEqual(said.returncode, 4, said.stderr)
+        self.assertNotIn("never came", said.stdout)
+        self.assertRegex(said.stdout, "event jump +[0-9.e-]+ s: could not do it")
+
+    def test_what_is_not_there_ends_as_the_help_says(self):
+        help = self.say("--help").stdout
+        self.assertRegex(help, "1  results cannot be read or written")
+        self.assertRegex(help, "2  .*a scene, a study or a file that these name is: also if it is missing or cannot be read")
+        for command in ("run", "check", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "fmu", "sweep", "fit", "sensitivity",
+                        "nonlinear", "tradeoff"):
+            if command != "fmu" or (Path(pintle).parent / "pintle-fmu").exists():
+                self.assertEqual(self.say(command, "none.yaml").returncode, 2, command)
+        for words in (("report", "none"), ("plot", "none", "t")):
+            self.assertEqual(self.say(*words).returncode, 1, words)
+
+    def test_of_a_file_that_is_no_scene_nothing_is_shown(self):
+        for k, text in enumerate(("hidden words\n", "hidden:*:20228:0:99999:7:::\nother:*:1\n", "hidden: 1\n", "- hidden\n", "hidden words: x\nmore: y\n")):
+            (self.place / f"other{k}").write_text(text)
+            for command in ("run", "check", "sweep", "modes"):
+                done = self.say(command, f"other{k}")
+                self.assertEqual(done.returncode, 2)
+                self.assertNotIn("hidden", done.stderr)
+        self.assertIn("other0:1: is a plain text, not a mapping of keys; write keys and values", self.say("run", "other0").stderr)
+        self.assertIn("is it the right file?", self.say("run", "other1").stderr)
+
+    def test_a_study_is_not_run(self):
+        (self.place / "study.yaml").write_text("title: many\nscene: swing.pintle.yaml\nmeasure: {e: final x of rod}\n")
+        for command in ("run", "check", "statics"):
+            self.assertRegex(self.say(command, "study.yaml").stderr, "study.yaml: is a study, not a scene: .*sweep")
+
+    def test_one_body_is_not_compared_with_itself(self):
+        heavy = pendulum.replace("mass: 1 kg", "mass: 1e300 kg")
+        (self.place / "heavy.yaml").write_text(heavy)
+        said = self.say("run", "heavy.yaml")
+        self.assertNotIn('of that of "rod"', said.stdout + said.stderr)
+
+    def test_the_length_of_steps_is_no_time_of_computing(self):
+        self.assertRegex(self.say("check", "swing.pintle.yaml").stdout, "steps +[^\n]*, each [0-9.]+ [a-z]+ of the motion on average")
+
+    def test_a_unit_is_called_as_its_scene(self):
+        if not (Path(pintle).parent / "pintle-fmu").exists():
+            return
+        (self.place / "sp äö.yaml").write_text(pendulum)
+        done = self.say("fmu", "sp äö.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.place / "sp äö.fmu").exists(), done.stdout)
+
+    def test_a_folder_that_cannot_be_made_is_named_as_the_user_did(self):
+        done = self.say("run", "swing.pintle.yaml", "--out", "/proc/results")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/proc/results: cannot be made", done.stderr)
+        self.assertNotIn(".part-", done.stderr)
+
     def refusal(self, more, scene=pendulum):
         (self.place / "refused.yaml").write_text(scene + more)
         done = self.say("check", "refused.yaml")

@@ -82,6 +82,14 @@ class Pictures(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_a_time_without_frames_is_told(self):
+        self.run_of(pushed.format(x=1, y=0), "out")
+        for time, told in (("99", True), ("-1", True), ("1e-3", False), ("4e-4", False)):
+            done = self.say("picture", "out", "a.png", f"--time={time}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(f"--time {time}: the frames of out are from 0 to 0.001 s" in done.stderr, told, done.stderr)
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
     def test_arrows_end_inside(self):
         for k in range(8):
             angle = math.pi * k / 4

@@ -270,6 +270,80 @@ TEST(PeriodicOrbits, OfDrivenMotionAreRefusedAtACondition) {
   EXPECT_FALSE(values[0].orbit.cycle.found());
 }
 
+/// J a'' = amp cos 2t - c a' - m g l cos a: the product of the multipliers is exp(-c T/J) on any orbit (Liouville).
+struct DrivenPendulum {
+  double drag = 0.15, inertia = 0.02 + 0.25, period = pi;
+  double product() const { return std::exp(-drag * period / inertia); }
+  std::string scene() const {
+    return "gravity: [0, -9.81]\n"
+           "parameters: {omega: 2 rad/s, amp: 3.5 N m}\n"
+           "bodies: {bob: {rigid: {mass: 1 kg, inertia: 0.02 kg m^2, center: [0.5 m, 0]}, points: {O: [0, 0]}}}\n"
+           "joints: {pin: {revolute: [ground, bob.O]}}\n"
+           "forces: {drive: {torque: amp*cos(omega*t), on: bob}, damp: {torque: -0.15 N m s*bob.speed, on: bob}}\n"
+           "start: {bob: {angle: 0.1204311 rad, speed: 6.3478605850}}\n"
+           "run: {until: 10 s, method: dopri5, tolerance: 1e-10}\n";
+  }
+};
+
+constexpr const char* each_period = "section: {every: 2*pi/omega, record: bob.speed, transient: 20, returns: 3}\n";
+
+// Neighbours take steps that err by several 1e-10 differently. At a distance of 1e-4 to 1e-3 that leaves some 1e-5, and the square of
+// the distance 1e-6; at 1e-6 it left 1e-4. A late clock and an angle of hundreds of turns change nothing.
+TEST(PeriodicOrbits, HaveMultipliersWithinTheErrorToldHoweverLateTheClock) {
+  const DrivenPendulum pendulum;
+  for (const char* transient : {"20", "400", "1600"}) {
+    const SweepFolder folder;
+    const Followed done =
+        follow_study(folder, pendulum.scene(),
+                     std::string("section: {every: 2*pi/omega, record: bob.speed, transient: ") + transient + ", returns: 3}\norbit: {}\n");
+    const Cycle& cycle = done.values.at(0).orbit.cycle;
+    ASSERT_EQ(cycle.error.size(), 2u) << done.values[0].reason;
+    const double told = cycle.error[0] * cycle.modulus(1) + cycle.error[1] * cycle.modulus(0);
+    EXPECT_NEAR(cycle.modulus(0) * cycle.modulus(1), pendulum.product(), told) << transient;
+    EXPECT_LT(told, 5e-5) << transient;
+  }
+}
+
+// One distance that is asked for is kept, and its error told: at 1e-6 steps err by 1e-4 of it.
+TEST(PeriodicOrbits, TellTheErrorOfADistanceThatIsAskedFor) {
+  const DrivenPendulum pendulum;
+  for (const char* distance : {"1e-6", "0.1"}) {
+    const SweepFolder folder;
+    const Followed done = follow_study(folder, pendulum.scene(), each_period + std::string("orbit: {distance: ") + distance + "}\n");
+    const Cycle& cycle = done.values.at(0).orbit.cycle;
+    ASSERT_EQ(cycle.error.size(), 2u) << done.values[0].reason;
+    const double told = cycle.error[0] * cycle.modulus(1) + cycle.error[1] * cycle.modulus(0);
+    EXPECT_NEAR(cycle.modulus(0) * cycle.modulus(1), pendulum.product(), told) << distance;
+  }
+}
+
+// Of the drive's period of pi s none of these is a multiple: a point that comes again after 1 s goes elsewhere in the next.
+TEST(PeriodicOrbits, AreRefusedWhereTheDriveDoesNotRepeat) {
+  const DrivenPendulum pendulum;
+  for (const char* every : {"1 s", "pi/omega", "3.14 s"}) {
+    const SweepFolder folder;
+    folder.write("scene.yaml", pendulum.scene());
+    folder.write("study.yaml", std::string("scene: scene.yaml\nsection: {every: ") + every +
+                                   ", record: bob.speed, transient: 60, returns: 8}\norbit: {}\n");
+    const Nonlinear study = read_nonlinear(folder / "study.yaml");
+    const std::vector<FollowedValue> values = followed(study, run_nonlinear(study, folder / "out", {}).rows);
+    EXPECT_EQ(values.at(0).status, "no periodic orbit") << every;
+    EXPECT_FALSE(values[0].orbit.cycle.found()) << every;
+    EXPECT_NE(values[0].reason.find("do not repeat"), std::string::npos) << values[0].reason;
+    EXPECT_NE(values[0].reason.find("section.every"), std::string::npos) << values[0].reason;
+  }
+}
+
+// Half the drive's period twice is the period: an orbit of two returns closes.
+TEST(PeriodicOrbits, CloseAfterReturnsThatTogetherLastTheDrivesPeriod) {
+  const DrivenPendulum pendulum;
+  const SweepFolder folder;
+  const Followed done = follow_study(folder, pendulum.scene(),
+                                     "section: {every: pi/omega, record: bob.speed, transient: 40, returns: 3}\norbit: {period: 2}\n");
+  EXPECT_EQ(done.values.at(0).status, "finished") << done.values[0].reason;
+  EXPECT_NEAR(done.values[0].orbit.cycle.period, pi, 1e-9);
+}
+
 // Exponents go on for one interval and two, a period and a half, after the last return; the next value begins at that return all the same.
 TEST(Nonlinear, TheNextValueBeginsAtAReturnWhateverExponentsTake) {
   const SweepFolder folder;

@@ -284,8 +284,8 @@ TEST(SavedState, NamesTheEntriesOfTheSceneThatAreOthers) {
   };
   const std::string text = rod("1", "1e-6").text();
   const std::string mass = refusal(rod("2", "1e-6"), text), both = refusal(rod("2", "1e-7"), text);
-  EXPECT_TRUE(says(mass, "bodies.rod is another") && !says(mass, "run.tolerance")) << mass;
-  EXPECT_TRUE(says(both, "bodies.rod and run.tolerance are others") && says(both, "--set")) << both;
+  EXPECT_TRUE(says(mass, "bodies.rod differs") && !says(mass, "run.tolerance")) << mass;
+  EXPECT_TRUE(says(both, "bodies.rod and run.tolerance differ") && says(both, "--set")) << both;
 }
 
 // Of a mechanism with other numbers but the same words and files, what made them is named.

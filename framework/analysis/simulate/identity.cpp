@@ -277,7 +277,7 @@ std::string difference(const std::string& saved, const std::string& now) {
   std::string out;
   if (!words.empty())
     out = "belongs to another scene, or to this one before it was changed (only title, run.until and output may change): " +
-          some_of(words, false) + (words.size() > 1 ? " are others" : " is another");
+          some_of(words, false) + (words.size() > 1 ? " differ" : " differs");
   if (!files.empty())
     out += (out.empty() ? "" : ", and ") + std::string("a file that the scene names has changed since: ") + some_of(files, false);
   if (!out.empty()) return out + remedy;

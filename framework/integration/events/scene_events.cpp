@@ -282,6 +282,8 @@ std::string list_of(const System& system, const std::vector<SwitchOver>& changes
   return out;
 }
 
+constexpr const char* failed_to_act = "could not do it, which ended the run";  // it came all the same
+
 void add_words(std::string& did, const std::string& words) {
   if (!words.empty()) did += (did.empty() ? "" : "; ") + words;
 }
@@ -329,6 +331,7 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
   rearm_beside(event, step);
   if (!switches_all(actions, state, out)) {
     out.failure = "the event \"" + rule.name + "\": " + out.failure;
+    out.did = failed_to_act;
     return out;
   }
   const State seen = state;
@@ -339,6 +342,7 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
         out.failure = "the event " + quoted(rule.name) + " sets " + set->name +
                       " to what is not a finite number at t = " + number_text(state.t, 9) + " s" +
                       (set->seen ? set->seen(system_, seen) : "");
+        out.did = failed_to_act;
         return out;
       }
       out.change = std::max(out.change, EventOutcome::Change::jump);

@@ -19,6 +19,14 @@ std::vector<std::string> names(const KeyTable& table) {
   return out;
 }
 
+/// Whether the keys of a whole file are of something else: none is known, or nearly. Then they are not shown.
+bool is_foreign(std::span<const Node> entries, std::span<const std::string> known) {
+  const auto like_known = [&](const Node& entry) {
+    return std::ranges::find(known, entry.name()) != known.end() || !nearest(entry.name(), known).empty();
+  };
+  return !entries.empty() && std::ranges::none_of(entries, like_known);
+}
+
 }  // namespace
 
 std::span<const std::string> choices(std::string_view path, std::string_view key) {
@@ -28,7 +36,10 @@ std::span<const std::string> choices(std::string_view path, std::string_view key
 void check_keys(const Node& group, std::string_view path) {
   const KeyTable& table = table_at(path);
   const std::vector<std::string> known = names(table);
-  for (const Node& entry : group.entries("keys and values: " + listed(known)))
+  const std::vector<Node> entries = group.entries("keys and values: " + listed(known));
+  if (group.place().key.empty() && is_foreign(entries, known))
+    group.fail("has none of the keys " + listed(known) + "; is it the right file?");
+  for (const Node& entry : entries)
     if (std::ranges::find(known, entry.name()) == known.end())
       entry.fail("unknown key \"" + entry.name() + "\"." +
                  (entry.is_nothing() ? std::string(" ") + hint_about_commas : did_you_mean(entry.name(), known)));

@@ -113,6 +113,10 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   Source source{file, {}, folder};
   const Node root(tree, source, {tree.line, {}});
   if (tree.kind == Yaml::Kind::nothing) root.fail("is empty; docs/scene.md shows what to write");
+  if (root.is_map() && root.has("scene") && !root.has("bodies"))
+    throw SceneError(file, {},
+                     "is a study, not a scene: its key scene names one. Commands of studies read it: sweep, fit, sensitivity, tradeoff and "
+                     "nonlinear (docs/studies.md)");
   include_files(tree, source);
   const bool copies = tree.kind == Yaml::Kind::map && has_copies(tree);
   const auto [now, later] = copies ? written_and_made(tree, overrides) : std::pair{overrides, Overrides{}};

@@ -13,6 +13,7 @@
 
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/common/text.h"
+#include "framework/study/nonlinear/differences.h"
 #include "framework/study/nonlinear/follower.h"
 
 namespace pintle {
@@ -30,6 +31,8 @@ constexpr double same_for_any_time = 1e-6;
 constexpr double singular = 1e-7;      // of the largest pivot: smaller ones mean a family of orbits; the nearest is taken
 constexpr double closes_before = 100;  // times the tolerance
 constexpr double neutral_within = 1e-5;
+constexpr int most_distances = 4;
+constexpr double shortest_distance = 1e-6;
 constexpr const char* no_orbit = "no periodic orbit";
 
 /// Removes whole turns from the angles of bodies: a crank that has turned once is where it was.
@@ -62,12 +65,11 @@ class Shooting {
     without_turns(model_.system, from_motion);
     point_ += from_motion;
     miss_ = miss(point_);
-    if (run_.interval == 0) check_autonomous();
+    check_time();
     newton();
-    const Linearised here = linearise();
     Cycle out;
     out.point.assign(point_.data(), point_.data() + point_.size());
-    take_multipliers(here.derivative, out);
+    take_multipliers(derivative(), out);
     go_round_once_more(read, out);
     return out;
   }
@@ -111,22 +113,46 @@ class Shooting {
     return apart(head(*integrator), point);
   }
 
-  /// If returns are events, an orbit can close only if nothing depends on time itself. @throws OrbitTrouble  something does
-  void check_autonomous() const {
-    constexpr double later = 0.381966;  // of the period: not a simple fraction
-    const auto integrator = begin(point_, later * run_.expected);
-    bool same = apart(head(*integrator), point_).lpNorm<Eigen::Infinity>() < same_for_any_time;
-    if (same) {
+  /// Whether the same point goes the same way, begun `later` and some turns on.
+  bool goes_alike(double later, const VectorXd& turns) const {
+    try {
+      const auto integrator = begin(point_ + turns, later);
+      if (!(apart(head(*integrator), point_).lpNorm<Eigen::Infinity>() < same_for_any_time)) return false;
       go_round(*integrator);
-      same = (apart(head(*integrator), point_) - miss_).lpNorm<Eigen::Infinity>() < same_for_any_time;
+      return (apart(head(*integrator), point_) - miss_).lpNorm<Eigen::Infinity>() < same_for_any_time;
+    } catch (const OrbitTrouble& trouble) {
+      if (trouble.status != no_orbit && trouble.status != status_text(Status::failed)) throw;
+      return false;
     }
-    if (!same) throw OrbitTrouble{no_orbit, "laws or drivers depend on time: an orbit closes after their period; name it as section.every"};
+  }
+
+  /// That bodies have made in a round: a driver has its crank go on from there.
+  VectorXd turns_of_a_round() const {
+    const auto integrator = begin(point_);
+    go_round(*integrator);
+    const VectorXd whole = head(*integrator) - point_;
+    VectorXd rest = whole;
+    without_turns(model_.system, rest);
+    return whole - rest;
+  }
+
+  /// An orbit closes only where time does: for returns by the clock after a period, for those that are events at any time.
+  void check_time() const {
+    constexpr double irrational = 0.381966;  // of the period: no simple part of any
+    const VectorXd none = VectorXd::Zero(scales_.size());
+    if (run_.interval == 0 && !goes_alike(irrational * run_.expected, none))
+      throw OrbitTrouble{no_orbit, "laws or drivers depend on time: an orbit closes after their period; name it as section.every"};
+    const double period = run_.period * run_.interval;
+    if (run_.interval > 0 && !goes_alike(period, none) && !goes_alike(period, turns_of_a_round()))
+      throw OrbitTrouble{no_orbit, "laws or drivers do not repeat after " + number_text(period, 6) +
+                                       " s, orbit.period times section.every: the same point goes elsewhere one period later; make "
+                                       "section.every a multiple of the period of the driving, such as 2*pi/omega"};
   }
 
   void newton() {
     for (int k = 0; k < most_newton; ++k) {
       if (miss_.lpNorm<Eigen::Infinity>() <= run_.tolerance) return;
-      const Linearised here = linearise();
+      const Linearised here = linearise(first_distance());
       MatrixXd equations = here.derivative;
       equations.diagonal().array() -= 1;
       Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
@@ -165,45 +191,74 @@ class Shooting {
     return apart(head(neighbour_), point_);
   }
 
+  /// Of neighbours: the given one, otherwise the shortest of those that are compared.
+  double first_distance() const { return run_.distance > 0 ? run_.distance : shortest_distance; }
+
   /// An orthonormal basis of the directions that the constraints allow.
   MatrixXd directions_at(const std::string& here) {
     const Index n = scales_.size();
     MatrixXd allowed(n, n);
-    for (Index k = 0; k < n; ++k) allowed.col(k) = set_apart(here, run_.distance * VectorXd::Unit(n, k)) / run_.distance;
+    for (Index k = 0; k < n; ++k) allowed.col(k) = set_apart(here, shortest_distance * VectorXd::Unit(n, k)) / shortest_distance;
     Eigen::ColPivHouseholderQR<MatrixXd> qr;
     qr.setThreshold(no_direction);
     qr.compute(allowed);
     return qr.householderQ() * MatrixXd::Identity(n, qr.rank());
   }
 
-  Linearised linearise() {
-    const auto integrator = begin(point_);
-    const std::string here = integrator->save();
+  Linearised linearise(double distance) {
+    const std::string here = begin(point_)->save();
     Linearised out{directions_at(here), {}};
-    const Index d = out.directions.cols();
+    out.derivative = derivative_along(here, out.directions, distance);
+    return out;
+  }
+
+  MatrixXd derivative_along(const std::string& here, const MatrixXd& directions, double distance) {
+    const Index d = directions.cols();
     if (d == 0) throw OrbitTrouble{no_orbit, "the mechanism has no free motion: drivers prescribe all of it"};
     MatrixXd before(d, d), after(d, d);
     for (Index j = 0; j < d; ++j) {
       VectorXd began = VectorXd::Zero(scales_.size()), came = began;
       for (const double sign : {1.0, -1.0}) {
-        began += sign * set_apart(here, sign * run_.distance * out.directions.col(j));
+        began += sign * set_apart(here, sign * distance * directions.col(j));
         go_round(neighbour_);
         came += sign * apart(head(neighbour_), point_);
       }
-      before.col(j) = out.directions.transpose() * began;
-      after.col(j) = out.directions.transpose() * came;
+      before.col(j) = directions.transpose() * began;
+      after.col(j) = directions.transpose() * came;
     }
-    out.derivative = before.transpose().fullPivHouseholderQr().solve(after.transpose()).transpose();
-    return out;
+    return before.transpose().fullPivHouseholderQr().solve(after.transpose()).transpose();
   }
 
-  void take_multipliers(const MatrixXd& derivative, Cycle& out) const {
-    Eigen::VectorXcd all = Eigen::EigenSolver<MatrixXd>(derivative, false).eigenvalues();
-    std::sort(all.begin(), all.end(), [](const std::complex<double>& a, const std::complex<double>& b) {
-      return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : std::arg(a) > std::arg(b);
+  /// At the point found. A distance that was asked for is kept; that ten times as long only tells its error.
+  BoundedDerivative derivative() {
+    const std::string here = begin(point_)->save();
+    const MatrixXd directions = directions_at(here);
+    std::vector<MatrixXd> all;
+    double distance = first_distance();
+    for (int k = 0; k < (run_.distance > 0 ? 2 : most_distances); ++k, distance *= 10) try {
+        all.push_back(derivative_along(here, directions, distance));
+      } catch (const OrbitTrouble& trouble) {
+        if (k == 0 || trouble.status == status_text(Status::interrupted)) throw;
+        break;  // a neighbour so far away goes nowhere
+      }
+    if (run_.distance > 0 && all.size() == 2) return {all[0], (all[1] - all[0]).cwiseAbs().array() + run_.tolerance};
+    return best_of_distances(all, run_.tolerance);
+  }
+
+  /// The multipliers, and how far each may be off, to first order: |row of V^-1| |error| |column of V| for the eigenvectors V.
+  void take_multipliers(const BoundedDerivative& derivative, Cycle& out) const {
+    const Eigen::EigenSolver<MatrixXd> solver(derivative.value);
+    const Eigen::VectorXcd all = solver.eigenvalues();
+    const Eigen::MatrixXcd V = solver.eigenvectors();
+    const MatrixXd rows = V.fullPivLu().inverse().cwiseAbs();
+    const VectorXd errors = (rows * derivative.error * V.cwiseAbs()).diagonal();
+    std::vector<Index> order;
+    for (Index j = 0; j < all.size(); ++j) order.push_back(j);
+    std::ranges::sort(order, [&](Index a, Index b) {
+      return std::abs(all[a]) != std::abs(all[b]) ? std::abs(all[a]) > std::abs(all[b]) : std::arg(all[a]) > std::arg(all[b]);
     });
-    const Index own = run_.interval == 0 ? 1 : 0;  // along the motion itself the section makes it 0
-    for (Index j = 0; j < all.size() - own; ++j) out.re.push_back(all[j].real()), out.im.push_back(all[j].imag());
+    if (run_.interval == 0) order.pop_back();  // along the motion itself the section makes it 0
+    for (const Index j : order) out.re.push_back(all[j].real()), out.im.push_back(all[j].imag()), out.error.push_back(errors[j]);
   }
 
   void go_round_once_more(const std::function<std::vector<double>(Integrator&)>& read, Cycle& out) const {
@@ -236,9 +291,8 @@ double Cycle::argument(std::size_t j) const { return std::atan2(im[j], re[j]); }
 
 OrbitStability stability(const Cycle& cycle) {
   const double most = cycle.re.empty() ? 0 : cycle.modulus(0);
-  return most > 1 + neutral_within   ? OrbitStability::unstable
-         : most < 1 - neutral_within ? OrbitStability::stable
-                                     : OrbitStability::neutral;
+  const double within = cycle.error.empty() ? neutral_within : std::fmax(neutral_within, cycle.error[0]);
+  return most > 1 + within ? OrbitStability::unstable : most < 1 - within ? OrbitStability::stable : OrbitStability::neutral;
 }
 
 std::string stability_word(OrbitStability stability) {

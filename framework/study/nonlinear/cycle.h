@@ -16,7 +16,8 @@ struct CycleRun {
   double interval = 0;  ///< between them; 0: they are events [s]
   double expected = 1;  ///< approximate time of all of them [s]
   double longest = 1;   ///< time limit for them [s]
-  double tolerance = 1e-8, distance = 1e-6;
+  double tolerance = 1e-8;
+  double distance = 0;  ///< of neighbours, in scaled coordinates; 0: the best of several
 };
 
 /// Coordinates, speeds and states near a point of the wanted orbit.

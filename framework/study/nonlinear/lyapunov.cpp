@@ -1,6 +1,8 @@
 #include "framework/study/nonlinear/lyapunov.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <Eigen/QR>
@@ -40,7 +42,7 @@ void orthonormalise(const MatrixXd& D, MatrixXd& Q, MatrixXd& R) {
 class Neighbours {
  public:
   Neighbours(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on)
-      : model_(model), main_(integrator), run_(run), go_on_(go_on), scales_(phase_scales(model.system, run.interval)) {
+      : main_(integrator), run_(run), go_on_(go_on), scales_(phase_scales(model.system, run.interval)) {
     const Index n = scales_.size();
     const auto k = static_cast<Index>(run.count);
     if (k > n) too_many(n);
@@ -97,7 +99,6 @@ class Neighbours {
     return out;
   }
 
-  const Model& model_;
   Integrator& main_;
   const LyapunovRun& run_;
   const std::function<bool()>& go_on_;
@@ -106,23 +107,37 @@ class Neighbours {
   std::vector<std::unique_ptr<Integrator>> apart_;
 };
 
-/// Mean and standard error of rates, from the scatter of the means of batches, which are nearly independent.
-Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
-  const std::size_t n = logs.size();
-  Exponent out;
-  for (const VectorXd& one : logs) out.value += one[j] / (static_cast<double>(n) * interval);
-  const std::size_t size = n / exponent_batches;
-  if (size == 0) {
-    out.error = std::numeric_limits<double>::quiet_NaN();
-    return out;
-  }
+/// By the scatter of the means over batches of intervals, which are nearly independent.
+double scatter_of_batches(const std::vector<VectorXd>& logs, Index j, double interval, double value) {
+  const std::size_t n = logs.size(), size = n / exponent_batches;
   double squares = 0;
   for (std::size_t b = 0; b < exponent_batches; ++b) {
     double mean = 0;
     for (std::size_t k = 0; k < size; ++k) mean += logs[n - (b + 1) * size + k][j] / (static_cast<double>(size) * interval);
-    squares += (mean - out.value) * (mean - out.value);
+    squares += (mean - value) * (mean - value);
   }
-  out.error = std::sqrt(squares / (exponent_batches * (exponent_batches - 1.0)));
+  return std::sqrt(squares / (exponent_batches * (exponent_batches - 1.0)));
+}
+
+/// By where in its own rise and fall the time begins and ends: the range of the logarithm of the distance about its mean growth, over the
+/// time. Growth that comes again and again has no other error, and this one of 1/time is not seen by batches.
+double offset_of_ends(const std::vector<VectorXd>& logs, Index j, double interval, double value) {
+  double at = 0, least = 0, most = 0;
+  for (const VectorXd& one : logs) {
+    at += one[j] - value * interval;
+    least = std::min(least, at), most = std::max(most, at);
+  }
+  return (most - least) / (static_cast<double>(logs.size()) * interval);
+}
+
+/// Mean of rates, and its error.
+Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
+  const std::size_t n = logs.size();
+  Exponent out;
+  for (const VectorXd& one : logs) out.value += one[j] / (static_cast<double>(n) * interval);
+  out.error = n < exponent_batches
+                  ? std::numeric_limits<double>::quiet_NaN()
+                  : std::max(scatter_of_batches(logs, j, interval, out.value), offset_of_ends(logs, j, interval, out.value));
   return out;
 }
 

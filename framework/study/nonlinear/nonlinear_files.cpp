@@ -111,7 +111,8 @@ std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   std::string out = heading_of_values(study) + "return";
   for (const std::string& header : signal_headers(study, rows)) out += "," + csv_field(header);
   out += ",period [s],least period,found from,stability";
-  for (std::size_t j = 1; j <= multipliers; ++j) out += ",modulus " + std::to_string(j) + ",argument " + std::to_string(j) + " [rad]";
+  for (std::size_t j = 1; j <= multipliers; ++j)
+    out += ",modulus " + std::to_string(j) + ",argument " + std::to_string(j) + " [rad],error " + std::to_string(j);
   out += '\n';
   for (const FollowedValue& value : values) {
     const Cycle& cycle = value.orbit.cycle;
@@ -119,7 +120,9 @@ std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
     std::string tail = "," + number_exactly(cycle.period) + "," + number_exactly(cycle.least) +
                        (cycle.continued > 0 ? ",branch," : ",motion,") + stability_word(stability(cycle));
     for (std::size_t j = 0; j < multipliers; ++j)
-      tail += j < cycle.re.size() ? "," + number_exactly(cycle.modulus(j)) + "," + number_exactly(cycle.argument(j)) : ",,";
+      tail += j < cycle.re.size()
+                  ? "," + number_exactly(cycle.modulus(j)) + "," + number_exactly(cycle.argument(j)) + "," + number_exactly(cycle.error[j])
+                  : ",,,";
     for (std::size_t k = 0; k < cycle.signals.size(); ++k) {
       out += fields_of(study, value) + std::to_string(k + 1);
       for (const double x : cycle.signals[k]) out += "," + number_exactly(x);
@@ -175,12 +178,14 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
       one["impacts"] = value.orbit.impacts.count, one["grazing"] = value.orbit.impacts.grazing;
     }
     if (const Cycle& cycle = value.orbit.cycle; cycle.found()) {
-      Json multipliers = Json::array();
-      for (std::size_t j = 0; j < cycle.re.size(); ++j) multipliers.push_back({cycle.re[j], cycle.im[j]});
+      Json multipliers = Json::array(), errors = Json::array();
+      for (std::size_t j = 0; j < cycle.re.size(); ++j)
+        multipliers.push_back({cycle.re[j], cycle.im[j]}), errors.push_back(number(cycle.error[j]));
       one["orbit"] = {{"period [s]", cycle.period},
                       {"least period", cycle.least},
                       {"stability", stability_word(stability(cycle))},
-                      {"multipliers", multipliers}};
+                      {"multipliers", multipliers},
+                      {"errors of multipliers", errors}};
     }
     for (const Exponent& e : value.orbit.exponents)
       one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});

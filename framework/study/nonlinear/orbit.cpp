@@ -122,7 +122,8 @@ class Following {
     if (by_time) scene_.run.until = from + out.orbit.interval * (question.section->transient + question.section->returns);
     first_ = from, last_ = scene_.run.until;
     longest_ = by_time ? question.section->returns * out.orbit.interval : last_ - from;
-    if (question.cycle) scene_.run.until += longest_;
+    if (question.cycle)
+      scene_.run.until += longest_ + question.cycle->period * out_.orbit.interval;  // begun a period later too, to judge laws
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared, so one method integrates all of them to the end

@@ -35,9 +35,9 @@ struct LyapunovQuestion {
 
 /// Settings for the periodic orbit near the motion.
 struct CycleQuestion {
-  int period = 1;          ///< returns
-  double tolerance = 0;    ///< of the residual, in scaled coordinates; 0: a hundred times that of the run
-  double distance = 1e-6;  ///< of neighbours, likewise
+  int period = 1;        ///< returns
+  double tolerance = 0;  ///< of the residual, in scaled coordinates; 0: a hundred times that of the run
+  double distance = 0;   ///< of neighbours, likewise; 0: the best of several
 };
 
 struct OrbitQuestion {
@@ -59,7 +59,8 @@ struct ImpactFigures {
 };
 inline constexpr double grazing_share = 0.05;
 
-/// An exponent and its standard error, from the means of batches of intervals [1/s]. The error is NaN with fewer intervals than batches.
+/// An exponent and its error [1/s]: the larger of the standard error from the means of batches of intervals, and what the beginning and the
+/// end of the time leave. It is NaN with fewer intervals than batches.
 struct Exponent {
   double value = 0, error = 0;
 };
@@ -73,6 +74,7 @@ struct Cycle {
   double period = 0;                         ///< [s]
   double least = 0;                          ///< smallest number of returns after which it closes
   std::vector<double> re, im;                ///< of its Floquet multipliers, largest modulus first
+  std::vector<double> error;                 ///< of each, how far it may be off; NaN: not known
   double continued = 0;                      ///< 1: found from the orbits of previous values; 0: from the motion
   std::vector<double> point_before;          ///< orbit of the previous value, if continued from it
   double x_before = 0;

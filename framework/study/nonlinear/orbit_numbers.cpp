@@ -68,7 +68,8 @@ void pass(Archive& a, O& o) {
   a.add(o.impacts.count), a.add(o.impacts.interval), a.add(o.impacts.least_approach), a.add(o.impacts.median);
   a.add(o.impacts.most_approach), a.add(o.impacts.grazing), a.add(o.impacts.contact_share), a.add(o.zero_one), a.add(o.dimension);
   a.add(o.cycle.point), a.add(o.cycle.x), a.add(o.cycle.signals), a.add(o.cycle.period), a.add(o.cycle.least);
-  a.add(o.cycle.re), a.add(o.cycle.im), a.add(o.cycle.continued), a.add(o.cycle.point_before), a.add(o.cycle.x_before);
+  a.add(o.cycle.re), a.add(o.cycle.im), a.add(o.cycle.error), a.add(o.cycle.continued), a.add(o.cycle.point_before),
+      a.add(o.cycle.x_before);
   a.add(o.exponents), a.add(o.running_t), a.add(o.running);
   a.add(o.interval), a.add(o.end_t), a.add(o.end);
 }
