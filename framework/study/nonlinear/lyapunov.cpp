@@ -42,7 +42,7 @@ void orthonormalise(const MatrixXd& D, MatrixXd& Q, MatrixXd& R) {
 class Neighbours {
  public:
   Neighbours(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on)
-      : model_(model), main_(integrator), run_(run), go_on_(go_on), scales_(phase_scales(model.system, run.interval)) {
+      : main_(integrator), run_(run), go_on_(go_on), scales_(phase_scales(model.system, run.interval)) {
     const Index n = scales_.size();
     const auto k = static_cast<Index>(run.count);
     if (k > n) too_many(n);
@@ -99,7 +99,6 @@ class Neighbours {
     return out;
   }
 
-  const Model& model_;
   Integrator& main_;
   const LyapunovRun& run_;
   const std::function<bool()>& go_on_;
