@@ -49,6 +49,7 @@ Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elem
   twin.output.points.clear();
   twin.output.stress.clear();
   twin.output.frames = 0;
+  twin.outputs.clear();  // they may read deflections, which the twin lacks
   return twin;
 }
 
@@ -117,8 +118,8 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
     if (elements[b] && elements[b]->scene->elastic->modes)
       run.bodies[b].factor.resize(inertia_loads + 3 * static_cast<Index>(elements[b]->model.ports.size()), 1);
   const Scene twin = rigid_twin(scene, elements);
-  const Model model = build(twin);
   try {
+    const Model model = build(twin);
     const Assembly assembly = assemble(twin, model);
     if (!assembly.redundant.empty()) {
       const Redundancy& r = assembly.redundant.front();
@@ -128,6 +129,8 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
     }
   } catch (const AssemblyError& error) {
     run.trouble = error.what();
+  } catch (const SceneError& error) {  // also of laws that read deflections; the scene's own errors come again when it is built
+    run.trouble = std::string("with every body rigid, the scene cannot be built: ") + error.what();
   }
   run.seconds = processor_time() - begin;
   return run;

@@ -19,9 +19,8 @@ struct RigidRun {
 };
 
 /// Runs the scene, with its bodies of elements rigid, over `run.until` or, where it is driven only by uniform motors and constant forces,
-/// over ten turns; the number of steps is limited. Cannot fail for mechanical reasons: `trouble` reports problems.
+/// over ten turns; the number of steps is limited. Cannot fail: `trouble` reports problems, as where a law reads a deflection.
 /// @param elements  one per body of the scene, nullptr for those that are not made of elements
-/// @throws SceneError  as build
 RigidRun rigid_run(const Scene&, const std::vector<const ElasticBody*>& elements);
 
 /// Chooses the modes to keep for a single body of a scene: builds the others, and runs them rigid.

@@ -3,6 +3,7 @@
 usage: test_manners.py PINTLE"""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,6 +13,7 @@ from pathlib import Path
 from terminal import interrupted
 
 pintle = os.path.realpath(sys.argv.pop(1))
+examples = Path(__file__).resolve().parents[2] / "examples"
 pendulum = """
 gravity: [0, -9.81]
 bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [-1, 0]}}}
@@ -47,6 +49,13 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.say("--version").returncode, 0)
         self.assertEqual(self.say("run", "--help").returncode, 0)
         self.assertEqual(self.say().returncode, 2)
+
+    def test_every_example_that_runs_can_be_checked(self):
+        for scene in sorted(examples.glob("*.yaml")):
+            if re.search("^run:", scene.read_text(), re.MULTILINE):
+                with self.subTest(scene.name):
+                    done = self.say("check", str(scene))
+                    self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_scene_may_be_named_pintle_yaml(self):
         self.assertEqual(self.say("run", "swing.pintle.yaml", "-q").returncode, 0)

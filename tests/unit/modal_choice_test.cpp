@@ -237,6 +237,20 @@ TEST(PreliminaryRun, IsForCheckAndForChoosingAlone) {
   EXPECT_FALSE(with_preliminary_run("bodies: {b: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n").preliminary_run);
 }
 
+// The bodies are rigid there: nothing has a deflection.
+TEST(PreliminaryRun, IsDoneWithoutOutputsThatReadDeflections) {
+  const Model model = with_preliminary_run(crank("{frame: chord, count: 2}") + "outputs: {sag: rod.M.uy}\n");
+  EXPECT_EQ(model.preliminary_run->trouble, "");
+  EXPECT_GT(model.preliminary_run->steps, 0);
+}
+
+TEST(PreliminaryRun, SaysThatThereIsNoneWhereALawReadsADeflection) {
+  const Model model =
+      with_preliminary_run(crank("{frame: chord, count: 2}") + "forces: {push: {force: [\"1 N - rod.M.uy*1 N/mm\", 0], at: slider}}\n");
+  EXPECT_NE(model.preliminary_run->trouble.find("rod.M.uy"), std::string::npos) << model.preliminary_run->trouble;
+  EXPECT_EQ(model.preliminary_run->steps, 0);
+}
+
 TEST(PreliminaryRun, EstimatesTheDeflectionOfASuddenWeight) {
   const Model model = with_preliminary_run("gravity: [0, -9.81]\n" + clamped("{frame: {tangent: A}, count: 4}", "run: {until: 1}\n"));
   const double still = rhoA * 9.81 / (8 * EI);
