@@ -22,7 +22,7 @@ TEST(BestOfDistances, BalancesNoiseAgainstCurvature) {
   for (const double noise : {1e-15, 1e-12, -1e-10, 1e-9})
     for (const double curvature : {1e-2, -1.0, 1e3, 1e6}) {
       const std::vector<Eigen::MatrixXd> all = differences(noise, curvature);
-      const JudgedDerivative found = best_of_distances(all, 1e-12);
+      const BoundedDerivative found = best_of_distances(all, 1e-12);
       double least = 1;
       for (double d = 1e-6; d < 2e-3; d *= 10) least = std::min(least, std::abs(noise) / d + std::abs(curvature) * d * d);
       const double off = std::abs(found.value(0, 0) - 2);
