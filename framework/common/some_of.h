@@ -10,9 +10,9 @@
 namespace pintle {
 
 /// Names in a message, of which a large scene can have any number: "a", "b" and "c"; of many the first and the number of the others:
-/// "a", "b", "c", "d" and 994 others. @param quotes  the names stand in quotes
+/// the first eight and "and 990 others". @param quotes  the names stand in quotes
 inline std::string some_of(const std::vector<std::string>& names, bool quotes = true) {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = 8;
   const bool many = names.size() > most + 1;
   std::vector<std::string> shown;
   for (std::size_t i = 0; i < (many ? most : names.size()); ++i) shown.push_back(quotes ? quoted(names[i]) : names[i]);

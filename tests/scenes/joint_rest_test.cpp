@@ -157,7 +157,7 @@ TEST(JointRest, StatesThatOnlyTheirSumDecidesAreNamed) {
                         "40 N m*(target - arm.angle) + 15 N m/s*(integral + other)"));
   ASSERT_TRUE(found.rest.found) << found.rest.reason;
   EXPECT_NEAR(found.state(0) + found.state(1), weight * std::cos(target) / 15, 1e-9);
-  EXPECT_TRUE(found.warns("\"integral\", \"other\""));
+  EXPECT_TRUE(found.warns("\"integral\" and \"other\""));
 }
 
 // s³ + 4 s² + (40 − 9.81 sin 0.5) s + 15, and a run from the rest stays there.

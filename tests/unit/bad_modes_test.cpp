@@ -109,7 +109,7 @@ TEST(BadModes, LumpsAndSupportsAreJudged) {
 TEST(BadModes, StaticCasesAreJudged) {
   expect_refused({
       {"body: rocker", "body: roker", "scene.yaml:45: static.body: ", {"Did you mean \"rocker\"?"}},
-      {"  body: rocker\n", "", "scene.yaml:44: static: ", {"which body", "coupler, mast, rocker or sheet"}},
+      {"  body: rocker\n", "", "scene.yaml:44: static: ", {"which body", "coupler, mast, rocker and sheet"}},
       {"at: D, force", "at: E, force", "scene.yaml:47: static.loads.pull.at: ", {"rocker has no point \"E\""}},
       {"at: D, force", "force", "scene.yaml:47: static.loads.pull: ", {"at: tip"}},
       {"force: [1 kN, 0]", "force: 1 kN", "scene.yaml:47: static.loads.pull.force: ", {"two values [x, y]"}},

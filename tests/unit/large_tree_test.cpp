@@ -149,10 +149,10 @@ TEST(LargeTreePoses, WhatIsFixedAtTheStartStays) {
 TEST(SomeOf, NamesAFewAndCountsTheOthers) {
   EXPECT_EQ(some_of({"a"}), "\"a\"");
   EXPECT_EQ(some_of({"a", "b", "c"}), "\"a\", \"b\" and \"c\"");
-  EXPECT_EQ(some_of({"a", "b", "c", "d", "e"}, false), "a, b, c, d and e");
+  EXPECT_EQ(some_of({"a", "b", "c", "d", "e", "f", "g", "h", "i"}, false), "a, b, c, d, e, f, g, h and i");
   std::vector<std::string> many;
   for (int i = 0; i < 998; ++i) many.push_back("j" + std::to_string(i));
-  EXPECT_EQ(some_of(many), "\"j0\", \"j1\", \"j2\", \"j3\" and 994 others");
+  EXPECT_EQ(some_of(many), "\"j0\", \"j1\", \"j2\", \"j3\", \"j4\", \"j5\", \"j6\", \"j7\" and 990 others");
 }
 
 TEST(SomeOf, AChainThatIsTooShortNamesAFewOfItsJoints) {

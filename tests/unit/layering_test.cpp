@@ -112,8 +112,9 @@ const std::vector<Layer> layers{
      {"framework/common/", "framework/scene/", "framework/bodies/", "framework/drawing/", "framework/mechanism/", "framework/build/"}},
 
     {"fmi/", {"files/", "framework/"}},
-    {"app/view/", {"framework/", "app/mistyped.h", "app/options.h", "app/progress.h"}},
-    {"app/fmu/", {"files/", "fmi/contents.h", "meshes/module.h", "framework/", "app/mistyped.h", "app/options.h", "app/progress.h"}},
+    {"app/view/", {"framework/", "app/failure.h", "app/mistyped.h", "app/options.h", "app/progress.h"}},
+    {"app/fmu/",
+     {"files/", "fmi/contents.h", "meshes/module.h", "framework/", "app/failure.h", "app/mistyped.h", "app/options.h", "app/progress.h"}},
     {"app/", {"files/", "elements/", "contact/", "meshes/", "framework/"}},
     {"examples/", {"elements/", "contact/", "meshes/", "framework/"}},
     {"tests/oracles/", {}},
