@@ -53,9 +53,10 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
   if (bodies.light == bodies.heavy)
     return "the mass of \"" + system.bodies[bodies.light].name +
-           "\" and its inertia, over the square of the distance at which it is held, " + "differ by a factor of " +
+           "\" and its inertia, over the square of the distance at which it is held, differ by a factor of " +
            number_text(bodies.ratio, 3) + ", which leaves " + number_text(rows.kept(), 3) +
-           " of what the joint forces are found from; correct the greater or the smaller of them: look at their units";
+           " of what the joint forces are found from; correct the larger or the smaller of them (check their units), or take method: "
+           "generalized-alpha";
   return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + number_text(1 / bodies.ratio, 3) + " of that of \"" +
          system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + number_text(rows.kept(), 3) +
          " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
