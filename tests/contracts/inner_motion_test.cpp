@@ -11,6 +11,7 @@
 #include "framework/integration/explicit/stages.h"
 #include "framework/integration/explicit/tableau.h"
 #include "framework/integration/integrator.h"
+#include "tests/contracts/first_step.h"
 #include "tests/contracts/scheme_cases.h"
 
 namespace pintle::inner_motion_test {
@@ -29,11 +30,7 @@ TEST(InnerMotion, ErrsAsAStepOfOrderEight) {
       Equations eq(k.system);
       Stages stages(k.system, *find_tableau("verner87"), Constraints::projection);
       Step step;
-      step.to.state = k.start;
-      step.to.dy.setZero(k.system.n_y());
-      ASSERT_TRUE(stages.project(k.system, step.to, eq));
-      step.from = step.to;
-      ASSERT_TRUE(stages.attempt(k.system, span, step, eq));
+      ASSERT_TRUE(first_step(k, span, stages, step, eq));
       InnerMotion inner;
       ASSERT_TRUE(inner.prepare(k.system, step, stages, eq));
       error.push_back(0);

@@ -19,6 +19,7 @@
 #include "framework/integration/explicit/stages.h"
 #include "framework/integration/explicit/tableau.h"
 #include "framework/integration/integrator.h"
+#include "tests/contracts/first_step.h"
 #include "tests/contracts/scheme_cases.h"
 
 namespace pintle {
@@ -225,11 +226,7 @@ TEST_P(QuarticInsideSteps, HasFifthOrder) {
     Equations eq(k.system);
     Stages stages(k.system, *find_tableau(GetParam()), Constraints::projection);
     Step step;
-    step.to.state = k.start;
-    step.to.dy.setZero(k.system.n_y());
-    ASSERT_TRUE(stages.project(k.system, step.to, eq));
-    step.from = step.to;
-    ASSERT_TRUE(stages.attempt(k.system, span, step, eq));
+    ASSERT_TRUE(first_step(k, span, stages, step, eq));
     error.push_back(0);
     State dense;
     for (int tenth = 1; tenth < 10; ++tenth) {
