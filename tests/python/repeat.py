@@ -16,17 +16,9 @@ if any(os.environ.get(name) != value for name, value in plain.items()):  # block
     sys.exit(subprocess.run([sys.executable, *sys.argv], env={**os.environ, **plain}).returncode)
 
 import pintle
-from common import examples, pendulum
+from common import examples, pendulum, servo_arm
 
-arm = """
-gravity: [0, -9.81 m/s^2]
-bodies: {arm: {rigid: {mass: 2 kg, inertia: 0.06 kg m^2, center: [0.3 m, 0]}, points: {O: [0, 0]}}}
-joints: {pivot: {revolute: [ground, arm.O]}}
-states: {torque: {rate: 0 N m/s, start: 0 N m}}
-forces: {servo: {torque: torque, on: arm}}
-start: {arm: {angle: -90 deg}}
-run: {until: 0.02 s}
-"""
+arm = servo_arm + "run: {until: 0.02 s}\n"
 
 
 def runs():

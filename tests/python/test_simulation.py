@@ -5,16 +5,9 @@ import unittest
 
 import numpy
 import pintle
-from common import examples
+from common import examples, servo_arm
 
-arm = """
-gravity: [0, -9.81 m/s^2]
-bodies: {arm: {rigid: {mass: 2 kg, inertia: 0.06 kg m^2, center: [0.3 m, 0]}, points: {O: [0, 0]}}}
-joints: {pivot: {revolute: [ground, arm.O]}}
-states: {torque: {rate: 0 N m/s, start: 0 N m}}
-forces: {servo: {torque: torque, on: arm}}
-start: {arm: {angle: -90 deg}}
-run: {until: 0.5 s, tolerance: 1e-10}
+arm = servo_arm + """run: {until: 0.5 s, tolerance: 1e-10}
 output: {every: 10 ms}
 """
 written = arm.replace("torque: torque", 'torque: "8 N m*(0.3 - arm.angle) - 1.5 N m s*arm.speed"')
