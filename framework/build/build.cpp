@@ -157,6 +157,7 @@ class Builder {
       const std::array<Profile, 2> profiles = profiles_of(scene_, j);
       add(contact_with_play(j), profiles[0], profiles[1], {markers_.marker(j.a, Holds::direction), markers_.marker(j.b, Holds::direction)});
     }
+    write_force_of(j, order, true);
     if (j.kind == JointKind::distance && j.play->only != ScenePlay::both) return;  // a rope may start slack
     model_.system.loose.push_back(ideal);
     model_.system.loose_names.push_back(j.name);
@@ -174,6 +175,7 @@ class Builder {
     SceneContact named;
     named.a = journal, named.b = bearing, named.place = j.clearance->place;
     add(build_pairs(scene_, named, profiles[0], profiles[1], like, order), j.name);
+    write_force_of(j, order, b_bears);
     model_.system.loose.push_back(joint_of(scene_, j, markers_));
     model_.system.loose_names.push_back(j.name);
   }
@@ -191,6 +193,15 @@ class Builder {
     model_.order.joints.push_back(static_cast<int>(model_.system.contacts.size()));
     model_.system.contacts.push_back(pair);
     model_.system.contact_names.push_back(j.name);
+    write_force_of(j, model_.order.joints.back(), b_bears);
+  }
+
+  /// As for a joint without clearance, results give the force on the second body, or on the first if the second is the ground.
+  /// @param first_is_a  the contact's a is on the joint's first body
+  void write_force_of(const SceneJoint& j, int first_pair, bool first_is_a) {
+    const bool on_first = j.b.body == "ground";
+    for (std::size_t k = at(first_pair); k < model_.system.contacts.size(); ++k)
+      model_.system.contacts[k].written_on_a = on_first == first_is_a;
   }
 
   void add(const SceneContact& c) {

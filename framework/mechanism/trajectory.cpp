@@ -136,7 +136,8 @@ void contact_columns(const System& system, std::size_t k, Out& out) {
         return std::array{c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction};
       });
   wrench_columns(
-      system, system.contact_names[k], true, false, pair.a, [&](const Now& now) { return clearance_effect(system, now.eq, k).on_a; }, out);
+      system, system.contact_names[k], true, false, written_marker(pair),
+      [&](const Now& now) { return written_force(pair, clearance_effect(system, now.eq, k)); }, out);
   pressure_columns(
       system.contact_names[k], pair.pressure, [&](const Now& now) { return clearance_effect(system, now.eq, k).normal.force; }, out);
 }
@@ -163,8 +164,7 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
     return std::array{c.at.x(), c.at.y(), c.gap.depth, c.gap.rate, slip, c.normal, c.friction};
   });
   wrench_columns(
-      system, name, true, false, pair.journal ? pair.a : pair.b,
-      [&](const Now& now) { return pair.journal ? contact(now).on_a : contact(now).on_b; }, out);
+      system, name, true, false, written_marker(pair), [&](const Now& now) { return written_force(pair, contact(now)); }, out);
   pressure_columns(
       name, pair.pressure, [&](const Now& now) { return contact(now).pressed; }, out);
   if (pair.flank)

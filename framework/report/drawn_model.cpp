@@ -136,7 +136,7 @@ Json contacts_json(const System& system) {
   for (const ContactPair& c : system.contacts) {
     if (c.pair > 0) continue;
     const std::string& name = system.contact_names[at(&c - system.contacts.data())];
-    Json one{{"name", name}, {"a", c.a}, {"b", c.b}, {"on", body_of(system, c.profiles && !c.journal ? c.b : c.a)}};
+    Json one{{"name", name}, {"a", c.a}, {"b", c.b}, {"on", body_of(system, written_marker(c))}};
     if (!c.profiles) one["radius"] = bearing_radius(c.gap), one["clearance"] = c.gap.clearance();
     one["eccentric"] = !c.profiles || c.journal;  // its columns are an eccentricity, not a position
     out.push_back(std::move(one));

@@ -50,7 +50,7 @@ TEST(OpenBearing, OfAFullTurnIsTheWholeBearing) {
   ASSERT_GE(whole.run.impacts.size(), 1u);
   using Group = std::vector<std::string>;  // of one kind of number, the largest of which rounding is measured by
   for (const Group& group : {Group{"bush.ex [m]", "bush.ey [m]", "bush.depth [m]"}, Group{"bush.rate [m/s]", "bush.sliding [m/s]"},
-                             Group{"bush.normal [N]", "bush.friction [N]", "bush.fx on rod [N]", "bush.fy on rod [N]"},
+                             Group{"bush.normal [N]", "bush.friction [N]", "bush.fx on arm [N]", "bush.fy on arm [N]"},
                              Group{"rod.angle [rad]"}, Group{"arm.speed [rad/s]"}}) {
     double most = 0, off = 0;
     for (const std::string& column : group) {

@@ -51,6 +51,7 @@ struct ContactPair {
   std::optional<PressureTheory> pressure = {};  ///< of cylinders whose contact law needs it
   bool journal = false;                         ///< for profiles: a is the journal of an open bearing b
   std::optional<Flank> flank = {};              ///< then the pieces are unused
+  bool written_on_a = false;                    ///< results give the force on a, otherwise on b
 };
 
 /// State of dry friction of a contact or joint, and of a rigid contact, with the force that the accelerations determine.
@@ -80,6 +81,13 @@ struct ContactEffect {
 
 /// A massless link keeps its two centres apart: no contact law acts, and it does not open or close.
 inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
+
+inline int written_marker(const ContactPair& pair) { return pair.written_on_a ? pair.a : pair.b; }
+/// Of an effect or of a contact of several pairs: the force that results give.
+template <class Effect>
+const Wrench& written_force(const ContactPair& pair, const Effect& effect) {
+  return pair.written_on_a ? effect.on_a : effect.on_b;
+}
 
 /// Slack relative to the mechanism's length: the rounding that a closed gap may show.
 inline constexpr double touching_part = 1e-13;
