@@ -78,7 +78,7 @@ MesherTask task_for(const MeshOptions& o) {
 }  // namespace
 
 Mesh mesh_link(const Link& link, const MeshOptions& o) {
-  judge(link);
+  validate(link);
   validate("link", o, 1);
   if (std::optional<Mesh> mesh = lattice_link(link, o)) return *std::move(mesh);
   MesherTask task = task_for(o);

@@ -55,7 +55,7 @@ double sweep(double from, double to) {
   return s < 0 ? s + 2 * pi : s;
 }
 
-struct Judge {
+struct Validate {
   void operator()(const StraightBar& l) const {
     positive("straight bar", "length", l.length);
     positive("straight bar", "width", l.width);
@@ -176,7 +176,7 @@ struct Draw {
 
 }  // namespace
 
-void judge(const Link& link) { std::visit(Judge{}, link); }
+void validate(const Link& link) { std::visit(Validate{}, link); }
 std::vector<Loop> drawing(const Link& link) { return std::visit(Draw{}, link); }
 
 }  // namespace pintle

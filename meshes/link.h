@@ -44,7 +44,7 @@ struct Disc {
 using Link = std::variant<StraightBar, EyeBar, TaperedBar, Triangle, Disc>;
 /// @throws std::invalid_argument  a size is not positive or not finite; a bore is not inside its eye; the outer circles of two eyes
 /// overlap; a shank is wider than an eye; an eye of a triangle does not reach its outline
-void judge(const Link&);
+void validate(const Link&);
 
 /// A straight edge, or an arc about `center` of less than half a turn.
 struct Edge {
@@ -57,7 +57,7 @@ struct Loop {
   std::vector<Edge> edges;
   std::vector<std::string> names;
 };
-/// The outline, counter-clockwise, then the holes.  @pre judge(link) has passed
+/// The outline, counter-clockwise, then the holes.  @pre validate(link) has passed
 std::vector<Loop> drawing(const Link&);
 
 }  // namespace pintle

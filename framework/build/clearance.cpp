@@ -25,7 +25,7 @@ std::string text(double x) {
 
 bool has_normal(const SceneClearance& c) { return c.normal.stiffness || c.normal.bearing.young > 0 || !c.normal.points.empty(); }
 
-std::array<double, 2> radii_in(const SceneClearance& c) { return {c.bearing_radius - c.radial, -c.bearing_radius}; }
+std::array<double, 2> radii_in(const SceneClearance& c) { return {c.journal_radius(), -c.bearing_radius}; }
 
 /// The contact law described in the scene.
 NormalLaw law_of(const Scene& scene, const SceneClearance& c) { return normal_law(scene, c.normal, contact_stiffness(c), radii_in(c)); }
@@ -235,11 +235,11 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
   if (!(c.radial > 0)) wrong(c.place, "radial must be above 0; leave out `clearance` for an ideal joint");
   if (!(c.radial < c.bearing_radius))
     wrong(c.place, "radial clearance must be below the bearing radius: the journal radius is their difference");
-  if (!(c.bearing_radius - c.radial < c.bearing_radius))
+  if (!(c.journal_radius() < c.bearing_radius))
     wrong(c.place, "radial clearance is less than the last digit of the bearing radius; leave out `clearance` for an ideal joint");
 
   ContactPair pair{};
-  pair.gap = JournalBearing{c.bearing_radius - c.radial, c.bearing_radius};
+  pair.gap = JournalBearing{c.journal_radius(), c.bearing_radius};
   pair.slowest_impact = c.normal.slowest_impact;
   pair.follows = c.normal.follows;
   if (c.model == ClearanceModel::massless_link) return pair;
@@ -312,8 +312,8 @@ double contact_stiffness(const SceneClearance& c) {
   if (c.normal.stiffness) return *c.normal.stiffness;
   const Elasticity& j = c.normal.journal.young > 0 ? c.normal.journal : c.normal.bearing;
   if (!(c.normal.bearing.young > 0)) return 0;
-  return hertz_stiffness(c.bearing_radius - c.radial, c.bearing_radius, j.young, j.poisson, c.normal.bearing.young,
-                         c.normal.bearing.poisson, c.normal.radii == RadiusConvention::internal);
+  return hertz_stiffness(c.journal_radius(), c.bearing_radius, j.young, j.poisson, c.normal.bearing.young, c.normal.bearing.poisson,
+                         c.normal.radii == RadiusConvention::internal);
 }
 
 std::string rounding_warning(const Scene& scene, const SceneJoint& j, double length) {

@@ -115,7 +115,7 @@ std::array<Profile, 2> open_bearing(const Scene& scene, const SceneJoint& j) {
   const SceneClearance& c = *j.clearance;
   const SceneArc& arc = *c.arc;
   const auto wrong = [&](const std::string& message) { throw SceneError(scene.file, c.place, message); };
-  const Profile journal = circle({0, 0}, c.bearing_radius - c.radial);
+  const Profile journal = circle({0, 0}, c.journal_radius());
   if (!(arc.extent > 0 && arc.extent < SceneArc::turn + SceneArc::rounding)) wrong("the extent of the arc must lie between 0 and 360 deg");
   if (c.model == ClearanceModel::massless_link) wrong("a massless link needs a wall all round, and an arc is open");
   if (c.model == ClearanceModel::spring_damper && !(c.stiffness && c.damping))

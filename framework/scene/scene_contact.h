@@ -88,6 +88,8 @@ struct SceneClearance {
   Place place;
   SceneImpact impact = {};           ///< for the impact model
   std::optional<SceneArc> arc = {};  ///< of an open bearing; unset: the hole is complete
+
+  double journal_radius() const { return bearing_radius - radial; }
 };
 /// Name in scene files.
 const char* model_name(ClearanceModel);

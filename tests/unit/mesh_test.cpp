@@ -306,8 +306,8 @@ TEST(LinkJudge, RefusesWhatCannotBeMade) {
                       EyeBar{0.3, 0.02, {0.04, 0.04}, eye},                              // no material round the bore
                       Triangle{{{0, 0}, {0.2, 0}, {0.1, 0}}, {eye, eye, {0.01, 0.03}}},  // the third hidden
                       Triangle{{{0, 0}, {0.2, 0}, {0.01, 0.01}}, {eye, eye, eye}}};
-  for (const Link& link : bad) EXPECT_THROW(judge(link), std::invalid_argument) << link.index();
-  EXPECT_NO_THROW(judge(Triangle{{{0, 0}, {0.2, 0}, {0.1, -0.2}}, {eye, eye, eye}})) << "in either sense of rotation";
+  for (const Link& link : bad) EXPECT_THROW(validate(link), std::invalid_argument) << link.index();
+  EXPECT_NO_THROW(validate(Triangle{{{0, 0}, {0.2, 0}, {0.1, -0.2}}, {eye, eye, eye}})) << "in either sense of rotation";
 }
 
 TEST(LinkDrawing, LoopsCloseAndArcsStayOnTheirCircles) {

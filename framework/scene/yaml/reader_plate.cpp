@@ -81,7 +81,7 @@ Link read_link(const Node& node) {
   const Node shape = node.at(link_kinds[kind].kind);
   const Link link = read_shape(shape, kind);
   try {
-    judge(link);
+    validate(link);
   } catch (const std::invalid_argument& error) {
     shape.fail(error.what());
   }
