@@ -1,6 +1,6 @@
 """Everything that the package does, again and again: no round may keep memory.
 
-python3 tests/python/repeat.py [ROUNDS [PART...]]   counts what is allocated before and after ROUNDS (60), some times;
+python3 tests/python/repeat.py [ROUNDS [PART...]]   counts what is allocated before and after ROUNDS (20), some times;
 under valgrind (docs/python.md) it says where what was lost was allocated."""
 
 import ctypes
@@ -114,7 +114,7 @@ def kept(part, rounds):
 if __name__ == "__main__":
     libc = ctypes.CDLL(None)
     warnings.simplefilter("ignore", pintle.ModelWarning)
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 60
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     smallest = 32  # of glibc's blocks [B]: one that each round leaves is at least this
     leaks = False
     for part in [p for p in everything if p.__name__ in sys.argv[2:]] or everything:
