@@ -22,7 +22,7 @@ struct Chain {
   System system;
   State state;
 };
-Chain chain(int links) {
+Chain chain(int links, double bent = 1.5) {
   constexpr double half = 0.05, m = 0.2, J = m * 0.01 / 12;
   Chain c;
   c.system.gravity = {0.3, -9.81};
@@ -39,7 +39,7 @@ Chain chain(int links) {
   c.state.y.setZero(c.system.n_y());
   Vector2d end(0, 0), end_rate(0, 0);
   for (int i = 0; i < links; ++i) {
-    const double angle = 1.5 * std::sin(3.0 * i), spin = 2 * std::cos(5.0 * i);
+    const double angle = bent * std::sin(3.0 * i), spin = 2 * std::cos(5.0 * i);
     const Vector2d u(std::cos(angle), std::sin(angle));
     c.state.y.segment<3>(3 * i) << end + half * u, angle;
     c.state.y.segment<3>(c.system.n() + 3 * i) << end_rate + half * spin * perp(u), spin;
@@ -118,6 +118,17 @@ TEST(Schur, AChainsFactorAndMemoryGrowWithTheLinks) {
   const auto [many_entries, many_bytes] = measure(10'000);
   EXPECT_LT(many_entries, 1.05 * few_entries);
   EXPECT_LT(many_bytes, 1.2 * few_bytes);
+}
+
+// The weakest combination of its rows is about 1/N² of the whole: less than what rounding leaves of 2 N dependent rows, but far above what it
+// leaves of rows of a factor as narrow as this.
+TEST(Schur, AStraightChainOfManyLinksHasIndependentRows) {
+  const Chain c = chain(120'000, 0);
+  Equations eq(c.system);
+  pose(c.system, 0, c.state.y, eq);
+  factor(c.system, c.state.y, eq);
+  EXPECT_TRUE(eq.regular);
+  EXPECT_FALSE(eq.schur.dependent());
 }
 
 TEST(Schur, DenseDependentRowsDoNotAllocate) {

@@ -256,15 +256,19 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
   lost_ = 0;
   if (sparse()) least_ = data_->sparse->factor(values_);
   const bool independent = sparse() ? least_ > least : factor_dense(least);
-  // For dependent rows, rounding leaves this much of the quotient, or more if bodies are 1e12 times as heavy as others.
-  const double rounding = 4 * n_ * std::numeric_limits<double>::epsilon(), bound = least > dependent_rows::lost ? least : rounding;
-  if (independent && (least_ > few || smallest_quotient() > bound)) {
+  if (independent && (least_ > few || smallest_quotient() > bound(least))) {
     kept_ = least_;
     return true;
   }
   if (sparse()) return factor_shifted();
   sum(B, B_eta, released);  // the factor has overwritten S
-  return factor_by_rank(independent ? bound : least);
+  return factor_by_rank(independent ? bound(least) : least);
+}
+
+// What rounding leaves of the quotient for dependent rows; more if bodies are 1e12 times as heavy as others.
+double Schur::bound(double least) const {
+  const int width = sparse() ? data_->sparse->width() : n_;
+  return least > dependent_rows::lost ? least : 4 * width * std::numeric_limits<double>::epsilon();
 }
 
 // Relative size vᵀSv / Σ S_ii v_i² of the combination of rows that the smallest pivot belongs to. Where a row is only a small part of the

@@ -77,6 +77,7 @@ class Schur {
   bool factor_by_rank(double least);
   bool factor_dense(double least);
   double smallest_quotient() const;
+  double bound(double least) const;
   void solve_dense(double* mu) const;
   void solve_factored(Eigen::VectorXd& mu);
   void solve_by_rank(Eigen::VectorXd& mu);

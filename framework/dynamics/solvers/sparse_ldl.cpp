@@ -150,6 +150,21 @@ struct SparseLdl::Data {
       }
   }
 
+  // f(k, i) for each entry of L in column k, below the diagonal
+  template <class F>
+  void each_entry(F f) const {
+    if (!blocks) {
+      for (int k = 0; k < n; ++k)
+        for (int at_k = 0; at_k < count[at(k)]; ++at_k) f(k, row[at(begin[at(k)] + at_k)]);
+      return;
+    }
+    const int *first = static_cast<const int*>(blocks->super), *rows = static_cast<const int*>(blocks->pi),
+              *index = static_cast<const int*>(blocks->s);
+    for (std::size_t s = 0; s < blocks->nsuper; ++s)
+      for (int k = first[s]; k < first[s + 1]; ++k)
+        for (int i = rows[s] + (k - first[s]) + 1; i < rows[s + 1]; ++i) f(k, index[i]);
+  }
+
   void solve_blocks() {
     cholmod_dense b{};
     b.nrow = b.d = b.nzmax = at(n);
@@ -178,6 +193,7 @@ struct SparseLdl::Data {
   std::vector<int> order, diagonal;  ///< order[k]: row eliminated k-th
   std::vector<double> x;
   double lnz = 0;
+  int width = 0;  ///< 0: not counted yet
   // thin
   std::vector<int> parent, flag, count, begin, row, stack;
   std::vector<double> L, D, work;
@@ -261,6 +277,14 @@ double SparseLdl::smallest_quotient(const std::vector<double>& values) {
   double weight = 0;
   for (int k = 0; k < d.n; ++k) weight += d.diagonal_entry(values.data(), k) * d.x[at(k)] * d.x[at(k)];
   return d.x[at(weakest)] / weight;
+}
+
+int SparseLdl::width() {
+  Data& d = *data_;
+  if (d.width > 0) return d.width;
+  std::vector<int> entries(at(d.n), 1);
+  d.each_entry([&](int k, int i) { ++entries[at(k)], ++entries[at(i)]; });
+  return d.width = *std::ranges::max_element(entries);
 }
 
 void SparseLdl::solve(double* x) {

@@ -33,6 +33,8 @@ class SparseLdl {
   int below(const std::vector<double>& values, double ratio, double& least) const;
   /// xᵀSx / Σ S_ii x_i² for x = S⁻¹e, where e is for the row of the smallest pivot. @pre as for solve; values as factored
   double smallest_quotient(const std::vector<double>& values);
+  /// Most entries in a row of L + Lᵀ, so many that rounding can add up to in a row. @pre as for solve
+  int width();
   void solve(double* x);  ///< x ← S⁻¹ x. @pre factor returned a positive number
   /// out −= S x
   void subtract_product(const std::vector<double>& values, const double* x, double* out) const;
