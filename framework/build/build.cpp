@@ -25,6 +25,7 @@
 #include "framework/build/play.h"
 #include "framework/build/shape_warnings.h"
 #include "framework/build/signals.h"
+#include "framework/common/index.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
 #include "framework/scene/joint_words.h"

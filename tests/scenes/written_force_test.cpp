@@ -34,7 +34,7 @@ std::string with(std::string text, const std::string& bearing) {
 }
 std::vector<std::string> force_columns(const Table& t, const std::string& joint) {
   std::vector<std::string> out;
-  for (const std::string& c : t.columns)
+  for (const std::string& c : t.header)
     if (c.starts_with(joint + ".fx on ")) out.push_back(c);
   return out;
 }

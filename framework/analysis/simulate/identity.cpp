@@ -57,9 +57,9 @@ class Sum : public ValueWriter<Sum> {
   }
   void add(const ContactPair& p) {
     const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
-                 pressure, journal, flank] = p;
-    add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid,
-        slack);
+                 pressure, journal, flank, written_on_a] = p;
+    add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
+        written_on_a);
     if (flank) add(*flank);
   }
   void add(const Flank& flank) {
