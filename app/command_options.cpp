@@ -260,7 +260,8 @@ void add_plot_options(CLI::App& command, Options& options) {
 
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
-  if (name == "picture" || name == "film" || name == "view" || name == "fmu") {  // whose options the program that does it knows
+  if (name == "picture" || name == "film" || name == "view" || name == "fmu" ||
+      name == "hdf5") {  // whose options the program that does it knows
     command.prefix_command()->set_help_flag();
     command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
     return;
@@ -289,6 +290,7 @@ void add_options(CLI::App& command, Options& options) {
         ->check(named())
         ->type_name("FILE.state");
   if (name == "run") command.add_flag("--report", options.report, "also write a page of the results, DIR/report.html");
+  if (name == "run") command.add_flag("--hdf5", options.hdf5, "also write the tables as one HDF5 file, DIR/results.h5");
   if (name == "run") command.footer(what_it_writes);
   if (name == "run") return;
   if (name == "linearize") return add_linearize_options(command, options);

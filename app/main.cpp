@@ -67,6 +67,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("picture", "Draw a frame of a run, or a field of a body, as a picture"), picture},
       {app.add_subcommand("view", "Show a scene in the browser while it is being written; move it by hand"), view},
       {app.add_subcommand("fmu", "Export a scene as a co-simulation unit for other programs (FMI 3.0)"), fmu},
+      {app.add_subcommand("hdf5", "Turn the tables of results into one HDF5 file"), hdf5},
       {app.add_subcommand("modes", "Find the natural frequencies and mode shapes of one body of elements"), modes},
       {app.add_subcommand("static",
                           "Solve the static load case of one body of elements, or of several in contact (for a whole mechanism: statics)"),

@@ -10,6 +10,7 @@
 
 #include "app/options.h"
 #include "app/frame_count.h"
+#include "app/other_programs.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/run_end.h"
@@ -181,9 +182,26 @@ std::optional<SavedState> saved_state(const Options& options, const Scene& scene
   return from;
 }
 
+/// The results once more, as options ask for: as a page, as an HDF5 file. @returns the exit code
+int write_other_forms(const Options& options, const fs::path& out) {
+  const auto tell = [&](const char* what, const fs::path& file) {
+    if (!options.quiet && !options.json) std::cout << "  " << what << ": " << file.string() << "\n";
+  };
+  if (options.report) {
+    write_report(out, out / "report.html", options.megabytes);
+    tell("report", out / "report.html");
+  }
+  if (!options.hdf5) return ok;
+  now_doing("writing the HDF5 file");
+  const int exit = write_hdf5(out);
+  if (exit == ok) tell("HDF5", out / "results.h5");
+  return exit;
+}
+
 }  // namespace
 
 int run(const Options& options) {
+  if (options.hdf5) require_hdf5();
   now_doing("reading the scene");
   Scene scene = with_pieces(runnable(options));
   const FrameCount frames(scene);
@@ -217,11 +235,9 @@ int run(const Options& options) {
   else if (!options.quiet)
     print_run(scene, model, result, out);
   const int exit = exit_code(options, scene, result);
-  if (!options.report || result.status == Status::not_written) return exit;
-  const fs::path page = out / "report.html";
-  write_report(out, page, options.megabytes);
-  if (!options.quiet && !options.json) std::cout << "  report: " << page.string() << "\n";
-  return exit;
+  if (result.status == Status::not_written) return exit;
+  const int other = write_other_forms(options, out);
+  return other == ok ? exit : other;
 }
 
 }  // namespace pintle::app

@@ -29,6 +29,7 @@ struct Options {
   std::string mesh_time;               ///< for one body; empty: the library's default
   double mesh_memory = 0;              ///< [GB]; 0: likewise
   bool report = false;                 ///< for a run: make a page of its results
+  bool hdf5 = false;                   ///< for a run: make one HDF5 file of its tables
   std::string against;                 ///< the column on the x axis of plots; empty: the time
   double megabytes = 5;                ///< approximate size of that page
   std::vector<std::string> passed_on;  ///< to the separate program that executes it
@@ -52,6 +53,7 @@ int picture(const Options&);
 int film(const Options&);
 int view(const Options&);
 int fmu(const Options&);
+int hdf5(const Options&);
 int fit(const Options&);
 int sensitivity(const Options&);
 int nonlinear(const Options&);

@@ -38,7 +38,7 @@ def text_of(*command):
 
 
 def is_there(pintle, command):
-    """`film`, `view` and `fmu` are programs of their own, which a build may lack."""
+    """`film`, `view`, `fmu` and `hdf5` are programs of their own, which a build may lack."""
     return subprocess.run([pintle, command, "--help"], capture_output=True).returncode == 0
 
 

@@ -13,22 +13,28 @@ namespace pintle {
 
 namespace {
 
-/// Fields of a record, with quotes removed.
-std::vector<std::string> split_record(const std::string& record) {
-  std::vector<std::string> out(1);
+/// Fields of a record, with quotes removed; `out` keeps its memory from record to record.
+void split_record(const std::string& record, std::vector<std::string>& out) {
+  std::size_t count = 0;
+  const auto next = [&] {
+    if (count == out.size()) out.emplace_back();
+    out[count].clear();
+    return &out[count++];
+  };
+  std::string* field = next();
   bool in_quotes = false;
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    const char c = record[i];
-    if (in_quotes && c == '"' && i + 1 < record.size() && record[i + 1] == '"')
-      out.back() += record[++i];
-    else if (c == '"')
+  for (auto at = record.begin(), end = record.end(); at != end; ++at) {
+    const auto stop = std::find_if(at, end, [&](char c) { return c == '"' || (c == ',' && !in_quotes); });
+    field->append(at, stop);
+    if ((at = stop) == end) break;
+    if (in_quotes && *at == '"' && at + 1 != end && at[1] == '"')
+      *field += *++at;
+    else if (*at == '"')
       in_quotes = !in_quotes;
-    else if (c == ',' && !in_quotes)
-      out.emplace_back();
     else
-      out.back() += c;
+      field = next();
   }
-  return out;
+  out.resize(count);
 }
 
 std::ifstream opened(const std::filesystem::path& file) {
@@ -44,7 +50,7 @@ std::ifstream opened(const std::filesystem::path& file) {
 
 CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), in_(opened(file_)) {
   read_record();
-  header_ = split_record(record_);
+  split_record(record_, header_);
 }
 
 bool CsvReader::read_record() {
@@ -77,7 +83,7 @@ void CsvReader::require_count(std::size_t fields) const {
 
 bool CsvReader::next(std::vector<std::string>& fields) {
   if (!read_record()) return false;
-  fields = split_record(record_);
+  split_record(record_, fields);
   require_count(fields.size());
   return true;
 }

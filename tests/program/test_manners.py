@@ -84,7 +84,10 @@ class Manners(unittest.TestCase):
                         "nonlinear", "tradeoff"):
             if command != "fmu" or (Path(pintle).parent / "pintle-fmu").exists():
                 self.assertEqual(self.say(command, "none.yaml").returncode, 2, command)
-        for words in (("report", "none"), ("plot", "none", "t")):
+        unread = [("report", "none"), ("plot", "none", "t")]
+        if (Path(pintle).parent / "pintle-hdf5").exists():
+            unread.append(("hdf5", "none"))
+        for words in unread:
             self.assertEqual(self.say(*words).returncode, 1, words)
 
     def test_of_a_file_that_is_no_scene_nothing_is_shown(self):

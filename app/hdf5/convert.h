@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace pintle::app {
+
+struct ConvertedTables {
+  std::size_t tables = 0, rows = 0;
+  bool whole = true;  ///< false: it was stopped, and there is no file
+};
+
+/// Told what is done: "reading trajectory.csv, row 4096". @returns false: stop
+using ConversionStep = std::function<bool(const std::string&)>;
+
+/// Writes the tables (.csv) and descriptions (.json) of a folder of results as one HDF5 file: docs/results.md. Memory does not depend on the
+/// number of rows. @throws ResultsError, FileError
+ConvertedTables convert_results(const std::filesystem::path& directory, const std::filesystem::path& file, const ConversionStep&);
+
+}  // namespace pintle::app
