@@ -45,9 +45,8 @@ std::string equilibrium_json(const Scene& scene, const Model&, const Equilibrium
                     {"iterations", e.iterations},
                     {"residual over greatest force", e.residual},
                     {"stability", stability_json(e.stability)},
-                    {"values", values},
-                    {"scene", scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false)}};
-  return json_text(out) + "\n";
+                    {"values", values}};
+  return text_with_scene(out, scene);
 }
 
 void write_equilibrium(const std::filesystem::path& directory, const Scene& scene, const Model& model, const Equilibrium& e) {

@@ -9,7 +9,7 @@
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
-#include "framework/output/scene_json.h"
+#include "framework/output/run_head.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -43,9 +43,7 @@ std::string effort_csv(const DriverEffort& e) {
 }  // namespace
 
 std::string kinematics_json(const Scene& scene, const Model& model, const Run& run) {
-  Json out = head(scene, model, run);
-  out["scene"] = scene_json(scene);
-  return json_text(out) + "\n";
+  return text_with_scene(head(scene, model, run), scene);
 }
 
 void write_kinematics(const fs::path& directory, const Scene& scene, const Model& model, const Run& run) {
@@ -81,8 +79,7 @@ std::string inverse_json(const Scene& scene, const Model& model, const Inverse& 
                        {"error of a spline through every second row" + unit, std::isnan(e.error) ? Json(nullptr) : Json(e.error)}};
   }
   out["drivers"] = drivers;
-  out["scene"] = scene_json(scene);
-  return json_text(out) + "\n";
+  return text_with_scene(out, scene);
 }
 
 void write_inverse(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly, const Inverse& inverse) {

@@ -113,9 +113,8 @@ std::string linearized_json(const Scene& scene, const Linearization& lin) {
                     {"states", lin.space.states},
                     {"inputs", lin.space.inputs},
                     {"outputs", lin.space.outputs},
-                    {"notes", lin.notes},
-                    {"scene", scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false)}};
-  return json_text(out) + "\n";
+                    {"notes", lin.notes}};
+  return text_with_scene(out, scene);
 }
 
 void write_linearization(const fs::path& directory, const Scene& scene, const Linearization& lin, int shapes) {

@@ -6,7 +6,7 @@
 
 #include "framework/analysis/simulate/run_warnings.h"
 #include "framework/output/run_files.h"
-#include "framework/output/scene_json.h"
+#include "framework/output/run_head.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -97,24 +97,6 @@ Json preliminary_run_json(const Model& model) {
   return {{"reached [s]", r.until}, {"steps", r.steps}, {"time [s]", r.seconds}, {"trouble", r.trouble}};
 }
 
-/// The object as text, with the scene as its last entry: put in as the text it is, because reading it again takes longer than a short run.
-std::string text_with_scene(const Json& object, const Scene& scene) {
-  if (scene.filled_in.empty()) {
-    Json with_none = object;
-    with_none["scene"] = nullptr;
-    return json_text(with_none) + "\n";
-  }
-  std::string out = json_text(object);
-  out.resize(out.size() - 2);  // "\n}"
-  out.reserve(out.size() + scene.filled_in.size() * 3 / 2);
-  out += ",\n  \"scene\": ";
-  for (const char c : scene.filled_in) {
-    out += c;
-    if (c == '\n') out += "  ";
-  }
-  return out + "\n}\n";
-}
-
 Json method_json(const Scheme& scheme, const std::string& switched) {
   return {{"name", name(scheme)}, {"reason", scheme.reason}, {"changed in the run", switched.empty() ? Json(nullptr) : Json(switched)}};
 }
@@ -182,10 +164,10 @@ std::string run_json(const Scene& scene, const Model& model, const Assembly& ass
 }
 
 std::string begun_json(const Scene& scene) {
-  const Json out = {{"program", "pintle"},       {"version", PINTLE_VERSION}, {"title", scene.title},
-                    {"file", scene.file},        {"status", "unfinished"},    {"reason", "the run is going on, or the program was killed"},
-                    {"warnings", Json::array()}, {"scene", scene_json(scene)}};
-  return json_text(out) + "\n";
+  const Json out = {{"program", "pintle"},      {"version", PINTLE_VERSION}, {"title", scene.title},
+                    {"file", scene.file},       {"status", "unfinished"},    {"reason", "the run is going on, or the program was killed"},
+                    {"warnings", Json::array()}};
+  return text_with_scene(out, scene);
 }
 
 std::string check_json(const Scene& scene, const Model& model, const Assembly& assembly, const CostEstimate& cost) {

@@ -135,8 +135,7 @@ std::string modes_json(const Scene& scene, const ElasticBody& e, const ModesRepo
   if (r.natural.modes.sturm) out["natural"]["Sturm count"] = *r.natural.modes.sturm;
   if (r.reduced) out["reduced"] = table_json(*r.reduced, r);
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"modes", r.seconds}};
-  out["scene"] = scene.filled_in.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json::parse(scene.filled_in, nullptr, false);
-  return json_text(out) + "\n";
+  return text_with_scene(out, scene);
 }
 
 }  // namespace pintle

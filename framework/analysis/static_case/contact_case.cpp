@@ -157,8 +157,7 @@ std::string contact_json(const Scene& scene, const Bodies& bodies, const Contact
     one[r.straight ? "touches from, to [m]" : "touches from, to [rad]"] = {r.from, r.to};
   }
   out["timings [s]"] = {{"contact", c.seconds}};
-  out["scene"] = scene.filled_in.empty() ? OrderedJson(nullptr) : OrderedJson::parse(scene.filled_in, nullptr, false);
-  return json_text(out) + "\n";
+  return text_with_scene(out, scene);
 }
 
 void write_contact_case(const std::filesystem::path& directory, const Scene& scene, const Bodies& bodies, const ContactCase& c) {

@@ -32,8 +32,6 @@ Json head(const Scene& scene, const ElasticBody& e, const char* command) {
           {"freedoms", e.model.n()}, {"warnings", e.warnings}};
 }
 
-Json scene_json(const Scene& scene) { return scene.filled_in.empty() ? Json(nullptr) : Json::parse(scene.filled_in, nullptr, false); }
-
 }  // namespace
 
 std::vector<Field> static_fields(const BodyDrawing& drawing, const StaticReport& r) {
@@ -174,8 +172,7 @@ std::string static_json(const Scene& scene, const ElasticBody& e, const StaticRe
   out["reactions [N, N, N m]"] = reactions;
   out["points"] = ports;
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}, {"solution", r.seconds}};
-  out["scene"] = scene_json(scene);
-  return json_text(out) + "\n";
+  return text_with_scene(out, scene);
 }
 
 void write_case(const std::filesystem::path& directory, const Scene& scene, const ElasticBody& e, const StaticReport& r) {
@@ -201,8 +198,7 @@ std::string mesh_json(const Scene& scene, const ElasticBody& e) {
                       {"least corner angle [deg]", e.quality.least_angle * 180 / std::numbers::pi},
                       {"greatest corner angle [deg]", e.quality.greatest_angle * 180 / std::numbers::pi}};
   out["timings [s]"] = {{"mesh", e.mesh_seconds}, {"assembly", e.assembly_seconds}};
-  out["scene"] = scene_json(scene);
-  return json_text(out) + "\n";
+  return text_with_scene(out, scene);
 }
 
 void write_mesh_report(const std::filesystem::path& directory, const Scene& scene, const ElasticBody& e) {

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/scene/scene.h"
+
 namespace pintle {
 
 namespace {
@@ -13,5 +15,22 @@ std::string text_of(const Json& json, int indent) {
 
 std::string json_text(const nlohmann::ordered_json& json, int indent) { return text_of(json, indent); }
 std::string json_text(const nlohmann::json& json, int indent) { return text_of(json, indent); }
+
+std::string text_with_scene(const nlohmann::ordered_json& object, const Scene& scene) {
+  if (scene.filled_in.empty()) {
+    nlohmann::ordered_json with_none = object;
+    with_none["scene"] = nullptr;
+    return json_text(with_none) + "\n";
+  }
+  std::string out = json_text(object);
+  out.resize(out.size() - 2);  // "\n}"
+  out.reserve(out.size() + scene.filled_in.size() * 3 / 2);
+  out += ",\n  \"scene\": ";
+  for (const char c : scene.filled_in) {
+    out += c;
+    if (c == '\n') out += "  ";
+  }
+  return out + "\n}\n";
+}
 
 }  // namespace pintle
