@@ -39,8 +39,8 @@ struct Oscillator {
 /// bear what they will.
 inline std::string block_on_ramp(double angle, double until, const std::string& start = "",
                                  const std::string& law = "coulomb: {coefficient: 0.3, static: 0.4}") {
-  constexpr double g = 9.81;
-  return "gravity: [" + number(-g * std::sin(angle)) + ", " + number(-g * std::cos(angle)) +
+  constexpr double gravity = 9.81;
+  return "gravity: [" + number(-gravity * std::sin(angle)) + ", " + number(-gravity * std::cos(angle)) +
          "]\n"
          "bodies: {block: {rigid: {mass: 2, inertia: 5e-3}, profiles: {outline: {path: [[-8 cm, -2 cm], [8 cm, -2 cm], [8 cm, 2 cm], [-8 "
          "cm, 2 cm]], "
@@ -50,7 +50,7 @@ inline std::string block_on_ramp(double angle, double until, const std::string& 
          law +
          "}}}\n"
          "start: {block: {y: " +
-         number(0.02 - g * std::cos(angle) / 1e6) + start + "}}\nrun: {until: " + number(until) +
+         number(0.02 - gravity * std::cos(angle) / 1e6) + start + "}}\nrun: {until: " + number(until) +
          "}\noutput: {every: " + number(until / 200) + "}\n";
 }
 
