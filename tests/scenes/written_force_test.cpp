@@ -20,7 +20,7 @@ const Kind kinds[] = {
     {"InAHole", "revolute", hole + "BEARING, " + law + "}"},
     {"ByImpacts", "revolute", hole + "BEARING, model: impact, restitution: 0}"},
     {"MasslessLink", "revolute", hole + "BEARING, model: massless link}"},
-    {"InAnOpenHole", "revolute", hole + "BEARING, arc: {middle: -90 deg, extent: 200 deg, wall: 8 mm, edge: 2 mm}, " + law + "}"},
+    {"InAnOpenHole", "revolute", hole + "BEARING, arc: {middle: 0, extent: 300 deg, wall: 8 mm, edge: 2 mm}, " + law + "}"},
     {"Guide", "prismatic", ""},
     {"GuideWithGap", "prismatic", "clearance: {gap: 0.1 mm, length: 80 mm, height: 30 mm, " + law + "}"},
     {"Slot", "slot", ""},
