@@ -22,7 +22,7 @@ struct Chain {
   System system;
   State state;
 };
-Chain chain(int links, double bent = 1.5) {
+Chain chain(int links, double bent = 1.5, double turned = 0) {
   constexpr double half = 0.05, m = 0.2, J = m * 0.01 / 12;
   Chain c;
   c.system.gravity = {0.3, -9.81};
@@ -39,7 +39,7 @@ Chain chain(int links, double bent = 1.5) {
   c.state.y.setZero(c.system.n_y());
   Vector2d end(0, 0), end_rate(0, 0);
   for (int i = 0; i < links; ++i) {
-    const double angle = bent * std::sin(3.0 * i), spin = 2 * std::cos(5.0 * i);
+    const double angle = turned + bent * std::sin(3.0 * i), spin = 2 * std::cos(5.0 * i);
     const Vector2d u(std::cos(angle), std::sin(angle));
     c.state.y.segment<3>(3 * i) << end + half * u, angle;
     c.state.y.segment<3>(c.system.n() + 3 * i) << end_rate + half * spin * perp(u), spin;
@@ -129,6 +129,26 @@ TEST(Schur, AStraightChainOfManyLinksHasIndependentRows) {
   factor(c.system, c.state.y, eq);
   EXPECT_TRUE(eq.regular);
   EXPECT_FALSE(eq.schur.dependent());
+}
+
+// Pinned at its far end too, it carries the same force along its whole length without any load: one combination of all rows is dependent.
+TEST(Schur, AStraightChainBetweenTwoPinsHasOneDependentRow) {
+  for (const int links : {100, 3000, 60'000})
+    for (const double turned : {0.0, 0.3, 2.0}) {
+      Chain c = chain(links, 0, turned);
+      const double length = 0.1 * links;
+      const int far_pin = static_cast<int>(c.system.markers.size());
+      c.system.markers.push_back({ground, {length * std::cos(turned), length * std::sin(turned)}, 0});
+      c.system.joints.emplace_back(Revolute{2 * links, far_pin});
+      c.system.joint_names.push_back("pin");
+      number(c.system);
+      c.state.y.conservativeResize(c.system.n_y());
+      Equations eq(c.system);
+      pose(c.system, 0, c.state.y, eq);
+      factor(c.system, c.state.y, eq);
+      EXPECT_TRUE(eq.regular);
+      EXPECT_EQ(eq.schur.lost(), 1) << links << " links at " << turned;
+    }
 }
 
 TEST(Schur, DenseDependentRowsDoNotAllocate) {
