@@ -71,6 +71,16 @@ void RunFiles::add(const Table& trajectory, const Table& ledger, const std::vect
   add_rows(trajectory, trajectory_);
   add_rows(ledger, ledger_);
   while (impacts_ < impacts.size() && !std::isnan(impacts[impacts_].end)) add_impact(impacts[impacts_]);
+  flush_impacts();
+}
+
+// A writer looks at the clock when a record comes, and after a burst of impacts none may come for long.
+void RunFiles::flush_impacts() {
+  using std::chrono::steady_clock;
+  if (on_disk_ == impacts_ || steady_clock::now() - flushed_ < std::chrono::seconds(1)) return;
+  events_.flush();
+  on_disk_ = impacts_;
+  flushed_ = steady_clock::now();
 }
 
 void RunFiles::flush() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <vector>
 
@@ -25,10 +26,12 @@ class RunFiles {
  private:
   void add_rows(const Table&, FileWriter&);
   void add_impact(const Impact&);
+  void flush_impacts();
 
   const System& system_;
   FileWriter trajectory_, ledger_, events_;
-  std::size_t impacts_ = 0;  ///< number written
+  std::size_t impacts_ = 0, on_disk_ = 0;  ///< number written; of these, flushed
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
   std::string row_;
 };
 
