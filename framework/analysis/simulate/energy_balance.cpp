@@ -44,6 +44,24 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
                          for_finer_books(scheme));
 }
 
+// An impact takes energy from the motion. Steps through an impact, or Newton's law with friction (Kane 1984), can add some instead: the
+// ledger closes, because it counts a negative loss.
+void warn_of_gains(const System& system, const Scheme& scheme, Run& run) {
+  double gained = 0, most = 0;
+  int where = -1;
+  for (const Impact& impact : run.impacts) {
+    const ContactPair& pair = system.contacts[static_cast<std::size_t>(impact.contact)];
+    if (!is_rigid(pair) || !(impact.lost < 0)) continue;
+    gained -= impact.lost;
+    if (-impact.lost > most) most = -impact.lost, where = impact.contact;
+  }
+  if (!(gained > run.ledger_bound * run.energy_in_play + run.ledger_floor)) return;
+  run.warnings.push_back("impacts added " + number_text(gained, 3) + " J to the motion, " + number_text(gained / run.energy_in_play, 2) +
+                         " of the energy in play, most of it at \"" + system.contact_names[static_cast<std::size_t>(where)] + "\": " +
+                         (scheme.fixed_step > 0 ? "an error of the steps, which falls with their length; shorten moreau.step"
+                                                : "Newton's law of restitution can do so with friction; take restitution law: poisson"));
+}
+
 }  // namespace
 
 // A step has an error c(hω)³, at most the tolerance; the second-order scheme then makes an error of up to (hω)² of the energy in its energy
@@ -76,6 +94,7 @@ void check_energy_balance(const Scene& scene, const Model& model, bool implicit,
                            ": it passes because rounding alone may leave " + number_text(floor, 2) +
                            " J in a mechanism of this mass and size; energies as small as that are not known");
   warn_of_small_rows(model.system, model.scheme, run);
+  warn_of_gains(model.system, model.scheme, run);
 }
 
 }  // namespace pintle
