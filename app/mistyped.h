@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "app/failure.h"
+
 namespace pintle::app {
 
 /// The command or option that was probably meant, if the command line has an unknown name; otherwise empty. @param app  after its parse
@@ -11,5 +13,17 @@ std::string mistyped(const CLI::App& app, int argc, char** argv);
 
 /// Prints the requested help, or in one line the error in the command line. @returns the exit code
 int end_of(const CLI::App& app, const CLI::ParseError&, int argc, char** argv);
+
+/// Reads the command line, then does what a program of one command is for.
+/// @returns the exit code of f(), or that of a wrong command line or of the exception of f, which are reported
+template <class F>
+int parse_and_run(CLI::App& app, int argc, char** argv, const F& f) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return end_of(app, e, argc, argv);
+  }
+  return exit_code_of(f);
+}
 
 }  // namespace pintle::app

@@ -230,13 +230,8 @@ int main(int argc, char** argv) {
   Choice choice;
   add_options(command, choice);
   tailor_help(command, name);
-  try {
-    command.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app::end_of(command, e, argc, argv);
-  }
-  vtkObject::GlobalWarningDisplayOff();  // errors are reported below, once
-  return app::exit_code_of([&] {
+  return app::parse_and_run(command, argc, argv, [&] {
+    vtkObject::GlobalWarningDisplayOff();  // errors are reported below, once
     try {
       validate_ending(name, choice.drawn.file);
       return write(command, choice);

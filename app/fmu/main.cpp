@@ -77,12 +77,7 @@ int main(int argc, char** argv) {
   command.footer(
       "The unit holds the scene, the files that it reads, and Pintle as a shared library for Linux on x86-64. docs/fmu.md says what an\n"
       "importer sees. Exit codes: see pintle --help\n");
-  try {
-    command.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return end_of(command, e, argc, argv);
-  }
-  return exit_code_of([&] {
+  return parse_and_run(command, argc, argv, [&] {
     order.scene = scene, order.out = out;
     order.set = overrides(options);
     if (!order.out.empty() && order.out.extension() != ".fmu") throw SceneError("--out " + out + ": a unit is called NAME.fmu");

@@ -71,12 +71,7 @@ int main(int argc, char** argv) {
   command.footer(
       "Each table (.csv) becomes a group, each column a dataset in it, with its unit; each .json a string. docs/results.md says more.\n"
       "Exit codes: see pintle --help\n");
-  try {
-    command.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return end_of(command, e, argc, argv);
-  }
-  return exit_code_of([&] {
+  return parse_and_run(command, argc, argv, [&] {
     if (command.count("--out") > 0 && out.empty()) throw SceneError("--out is empty; name a file, or leave the option out");
     const fs::path folder = directory;
     return convert(folder, out.empty() ? folder / "results.h5" : fs::path(out), quiet);

@@ -50,10 +50,5 @@ int main(int argc, char** argv) {
   command.footer(
       "The page is served to this machine only, under an address that nobody can guess, and nothing is written. Bodies are rigid\n"
       "there, drivers are released, clearances are closed. Exit codes: see pintle --help\n");
-  try {
-    command.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return end_of(command, e, argc, argv);
-  }
-  return exit_code_of([&] { return view(scene, set, port); });
+  return parse_and_run(command, argc, argv, [&] { return view(scene, set, port); });
 }
