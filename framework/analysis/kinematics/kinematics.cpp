@@ -269,7 +269,7 @@ Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly,
   require_driven(scene, model, assembly);
   Model told = model;  // what is written: no forces, and no states, which would follow from rates over time
   told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.system.frictions.clear();
-  told.system.internal.clear(), told.system.states.clear(), told.stresses.clear();
+  told.system.internal.clear(), told.system.states.clear(), told.stresses.clear(), told.order = {};
   keep_outputs_of(model, told);
   Run run;
   run.warnings = model.warnings;
