@@ -180,7 +180,7 @@ void add_sweep_options(CLI::App& command, Options& options) {
   else
     refuse_shard(command, name == "fit"           ? "each of its cases depends on those before; leave it out and use --threads"
                           : name == "sensitivity" ? "its results need all cases at once; leave it out and use --threads or mpirun"
-                                                  : "its runs depend on those before; leave it out and use --threads");
+                                                  : "its runs may begin where those before ended; leave it out and use --threads");
   command.footer(name == "sweep"       ? what_sweep_writes
                  : name == "fit"       ? what_fit_writes
                  : name == "nonlinear" ? what_nonlinear_writes
