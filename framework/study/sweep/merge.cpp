@@ -24,7 +24,7 @@ struct Found {
 };
 
 std::string text_in_part(const fs::path& path) {
-  constexpr std::size_t most_bytes = std::size_t{100} << 20;
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
   try {
     return read_file(path, most_bytes);
   } catch (const FileRefused& rejected) {
@@ -241,9 +241,7 @@ void write_merged(const Merged& merged, const fs::path& folder) {
     if (!fs::is_directory(from)) continue;
     for (const std::string& name : names_in(from)) {
       if (const std::size_t k = case_of(name); k == 0 || !part.has(k)) continue;
-      std::error_code error;
-      fs::copy_file(from / name, curves_in(folder) / name, error);
-      if (error) throw FileError(curves_in(folder) / name, error.value());
+      write_text(curves_in(folder) / name, text_in_part(from / name));
     }
   }
 }
