@@ -143,6 +143,9 @@ TEST(SweepPart, IsMergedFromElsewhereWithoutTheStudy) {
   fs::remove(folder / "scene.yaml");
   merge(parts, folder / "merged");
   expect_same(folder / "whole", folder / "merged");
+  const std::string timings = contents(folder / "merged/timings.csv");  // processes are numbered through
+  EXPECT_NE(timings.find("\n1,0.0,"), std::string::npos) << timings;
+  EXPECT_NE(timings.find("\n2,1.0,"), std::string::npos) << timings;
 }
 
 TEST(SweepPart, WritesATableOfItsOwnName) {
