@@ -62,7 +62,7 @@ constexpr const char* what_sweep_writes =
     "  study.yaml, scene.yaml  what was run\n"
     "  journal-0.txt, …        cases as they end; after an interruption, the same command continues from there\n"
     "A failed case is a row with its reason. On many cores or machines: mpirun pintle sweep STUDY.yaml, one process\n"
-    "per core, in a directory that all of them share.\n"
+    "per core, in a directory that all of them share. In a job array: --shard, then pintle merge.\n"
     "Exit codes: see pintle --help\n";
 
 /// A whole number from 1, or another least, to `most`.
@@ -138,17 +138,49 @@ constexpr const char* what_nonlinear_writes =
     "  study.yaml, scene.yaml, journal-0.txt   as for sweep; after an interruption, the same command continues from there\n"
     "Exit code 4: the run failed for every parameter value. Others: see pintle --help\n";
 
+constexpr const char* what_merge_writes =
+    "All parts of one division are needed, in any order: the folders of pintle sweep STUDY --shard I/N for I = 1 … N. It writes what\n"
+    "one pintle sweep STUDY would have written: sweep.csv, sweep.json, timings.csv, curves/, study.yaml, scene.yaml, journal-0.txt.\n"
+    "Nothing is written if a part is missing, doubled, unfinished, damaged, or of another study.\n"
+    "Exit codes: see pintle --help\n";
+
+void add_merge_options(CLI::App& command, Options& options) {
+  command.add_option("parts", options.folders, "folders of all parts of a sweep")->required()->check(named())->type_name("DIR");
+  command.add_option("-o,--out", options.out, "directory for the results; it must not exist")->required()->check(named())->type_name("DIR");
+  command.add_flag("--json", options.json, "print JSON instead of text");
+  command.add_flag("-q,--quiet", options.quiet, "print errors only");
+  command.footer(what_merge_writes);
+}
+
+/// Other studies than sweeps cannot be divided. The option is not in their help.
+void refuse_shard(CLI::App& command, const std::string& why) {
+  const std::string name = command.get_name();
+  command
+      .add_option_function<std::string>(
+          "--shard", [=](const std::string& text) { throw SceneError("--shard " + text + ": " + name + " cannot be divided: " + why); })
+      ->group("");
+}
+
 /// Options common to all studies of cases.
 void add_sweep_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
   add_study_options(
       command, options, "study file (YAML)", "cases",
       "directory for the results; if it holds an earlier session of this study, that session is continued (default: runs/STUDY-" + name +
-          ")");
+          (name == "sweep" ? "; of a part: runs/STUDY-sweep-I-of-N)" : ")"));
   command
       .add_option("-t,--threads", options.threads, "cases that this process runs in parallel (default: the number of cores; under MPI 1)")
       ->type_name("N")
       ->check(whole(1, 4096));
+  if (name == "sweep")
+    command
+        .add_option("--shard", options.shard,
+                    "run only part I of N of the cases, in a folder of its own, e.g. 3/8: for job arrays; pintle merge joins the parts")
+        ->type_name("I/N");
+  else
+    refuse_shard(command, name == "fit"           ? "each of its cases depends on those before; leave it out and use --threads"
+                          : name == "sensitivity" ? "its results need all cases at once; leave it out and use --threads or mpirun"
+                                                  : "its runs may begin where those before ended; leave it out and use --threads");
   command.footer(name == "sweep"       ? what_sweep_writes
                  : name == "fit"       ? what_fit_writes
                  : name == "nonlinear" ? what_nonlinear_writes
@@ -180,6 +212,7 @@ void add_tradeoff_options(CLI::App& command, Options& options) {
                   "limit of the computing time, e.g. 10min: to keep it, clearly dominated settings are not run (default: 1min for a scene; "
                   "a study sets its own)")
       ->type_name("TIME");
+  refuse_shard(command, "its settings are timed one after another, on one machine; leave it out");
   command.add_option("--repeats", options.repeats, "timed runs of each setting (default 5)")->type_name("N")->check(whole(1, 1000));
   command.add_option("--markdown", options.markdown, "also write the report to this file, with its picture beside it")
       ->check(named())
@@ -266,6 +299,7 @@ void add_options(CLI::App& command, Options& options) {
     command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
     return;
   }
+  if (name == "merge") return add_merge_options(command, options);
   add_bounds(command, options);
   if (name == "report") return add_report_options(command, options);
   if (name == "plot") return add_plot_options(command, options);

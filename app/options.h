@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ struct Options {
   int count = 6, frames = -1;
   std::string restart, at;              ///< a saved state; a time
   bool at_rest = false;                 ///< about the equilibrium of the mechanism
+  std::optional<std::string> shard;     ///< of a sweep: "3/8", the part of its cases to run
+  std::vector<std::string> folders;     ///< of parts, to be merged
   int threads = 0;                      ///< of this process; 0: one per core
   std::vector<std::string> quantities;  ///< of a trade-off study, in words
   std::string wanted_error, wanted_time, budget, markdown;
@@ -46,6 +49,7 @@ int kinematics(const Options&);
 int inverse(const Options&);
 int linearize(const Options&);
 int sweep(const Options&);
+int merge(const Options&);
 int tradeoff(const Options&);
 int report(const Options&);
 int plot(const Options&);

@@ -1,15 +1,19 @@
-// pintle sweep: the cases of a study, by worker threads and processes.
+// pintle sweep: the cases of a study, by worker threads and processes. pintle merge: its parts, joined.
 #include "framework/study/sweep/sweep.h"
 
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "app/communicator.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/run_end.h"
 #include "framework/analysis/simulate/simulate.h"
+#include "framework/common/text.h"
+#include "framework/study/sweep/merge.h"
 
 namespace pintle::app {
 
@@ -33,15 +37,18 @@ std::string line(const SweepCount& c) {
 void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   std::cout << (sweep.study.title.empty() ? sweep.study.file : sweep.study.title) << "\n";
   Rows rows;
-  std::string ended = std::to_string(end.rows.size()) + " of " + std::to_string(sweep.cases.size());
+  std::string ended = std::to_string(end.rows.size()) + " of " + std::to_string(sweep.size());
   if (end.count.before > 0) ended += ", " + std::to_string(end.count.before) + " of them in earlier sessions";
+  if (sweep.part) ended += " of " + part_text(*sweep.part) + "; the study has " + counted(sweep.cases.size(), "case");
+  if (sweep.size() == 0)
+    ended = "none: " + part_text(*sweep.part) + " has no case, as the study has only " + std::to_string(sweep.cases.size());
   rows.emplace_back("cases ended", ended);
   for (const auto& [status, n] : statuses(end.rows)) {
     const Row& first = *std::ranges::find(end.rows, status, &Row::status);
     const std::string why = ", the first is case " + std::to_string(first.number) + ": " + first.reason;
     rows.emplace_back(status, std::to_string(n) + (first.reason.empty() ? "" : why));
   }
-  for (const MeasureRange& r : measure_ranges(sweep, end.rows))
+  for (const MeasureRange& r : sweep.size() > 0 ? measure_ranges(sweep, end.rows) : std::vector<MeasureRange>())
     rows.emplace_back(r.header, r.least_in == 0 ? "no case has a value"
                                                 : number(r.least) + " (case " + std::to_string(r.least_in) + ") to " + number(r.greatest) +
                                                       " (case " + std::to_string(r.greatest_in) + ")");
@@ -49,7 +56,7 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
     rows.emplace_back("this session",
                       std::to_string(end.count.done) + " cases in " + span_text(end.count.seconds) + " by " + std::to_string(end.workers) +
                           (end.workers > 1 ? " workers, busy " + number(100 * end.efficiency(), 3) + " % of the time" : " worker"));
-  rows.emplace_back("table", (out / (end.whole ? "sweep.csv" : "sweep-so-far.csv")).string());
+  rows.emplace_back("table", (out / (end.whole ? table_name(sweep) : "sweep-so-far.csv")).string());
   print_rows(std::cout, rows);
   if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command continues from here\n";
 }
@@ -60,8 +67,27 @@ bool none_ran(const SweepEnd& end) {
   return !end.rows.empty() && std::ranges::none_of(end.rows, ran);
 }
 
+/// A part that has ended is whole, whatever became of its cases: `pintle merge` judges all of them.
+int exit_code_of(const Sweep& sweep, const SweepEnd& end) {
+  if (sweep.part || !none_ran(end)) return ok;
+  std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "
+            << end.rows.front().status << ": " << end.rows.front().reason << "\n";
+  return run_failed;
+}
+
+void tell_lack_of_memory(const SweepEnd& end, const std::string& remedy) {
+  if (const auto n = std::ranges::count_if(end.rows, lacked_memory); n > 0)
+    std::cerr << "warning: " << n << (n == 1 ? " case" : " cases") << " lacked memory; " << remedy << (n == 1 ? "it" : "them")
+              << " again\n";
+}
+
+/// Parts that run in the same folder do not meet: "-3-of-8".
+std::string own_name(const Sweep& sweep) {
+  return sweep.part ? "-" + std::to_string(sweep.part->number) + "-of-" + std::to_string(sweep.part->count) : "";
+}
+
 int carry_out(const Sweep& sweep, const Options& options, Communicator* together, bool leads) {
-  const fs::path out = study_directory(options, "-sweep");
+  const fs::path out = study_directory(options, "-sweep" + own_name(sweep));
   SweepSettings settings;
   settings.threads = options.threads == 0 && together ? 1 : thread_count(options);
   settings.communicator = together;
@@ -78,9 +104,7 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
   if (!leads) return ok;
-  if (const auto n = std::ranges::count_if(end.rows, lacked_memory); n > 0)
-    std::cerr << "warning: " << n << (n == 1 ? " case" : " cases") << " lacked memory; the same command, with fewer --threads, runs "
-              << (n == 1 ? "it" : "them") << " again\n";
+  tell_lack_of_memory(end, "the same command, with fewer --threads, runs ");
   if (options.json)
     std::cout << sweep_json(sweep, end);
   else if (!options.quiet)
@@ -88,12 +112,7 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   if (!end.whole && (options.quiet || options.json))
     std::cerr << sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command continues from here\n";
   if (!end.whole) return stopped;
-  if (none_ran(end)) {
-    std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "
-              << end.rows.front().status << ": " << end.rows.front().reason << "\n";
-    return run_failed;
-  }
-  return ok;
+  return exit_code_of(sweep, end);
 }
 
 }  // namespace
@@ -102,8 +121,11 @@ int sweep(const Options& options) {
   const std::unique_ptr<Communicator> together = communicator();
   const bool leads = !together || together->rank() == 0;
   Sweep what;
+  std::optional<SweepPart> part;
   try {
+    if (options.shard) part = read_part(*options.shard);
     what = read_sweep(options.scene, overrides(options));
+    what.part = part;
   } catch (...) {
     // What stops one process usually stops all: only one of them reports it.
     if (together && leads)
@@ -115,6 +137,21 @@ int sweep(const Options& options) {
     throw;
   }
   return carry_out(what, options, together.get(), leads);
+}
+
+int merge(const Options& options) {
+  const std::filesystem::path out = results_directory(options);
+  require_place(out);
+  now_doing("reading the parts");
+  const Merged merged = read_parts({options.folders.begin(), options.folders.end()});
+  for (const std::string& note : merged.end.notes) std::cerr << "note: " << note << "\n";
+  write_whole(options, out, [&](const fs::path& folder) { write_merged(merged, folder); });
+  tell_lack_of_memory(merged.end, "pintle sweep " + merged.sweep.study.file + " --out " + out.string() + " runs ");
+  if (options.json)
+    std::cout << sweep_json(merged.sweep, merged.end);
+  else if (!options.quiet)
+    print(merged.sweep, merged.end, out);
+  return exit_code_of(merged.sweep, merged.end);
 }
 
 }  // namespace pintle::app

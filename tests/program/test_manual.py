@@ -70,6 +70,8 @@ class Manual(unittest.TestCase):
         self.assertEqual(self.bash("pintle", "run", ""), ["a scene.yaml", "other.pintle.yaml", "runs"])
         self.assertEqual(self.bash("pintle", "run", "--out", ""), ["runs"])
         self.assertEqual(self.bash("pintle", "report", ""), ["runs"])
+        self.assertEqual(self.bash("pintle", "merge", ""), ["runs"])
+        self.assertEqual(self.bash("pintle", "sweep", "--sh"), ["--shard"])
         self.assertEqual(self.bash("pintle", "run", "--set", ""), [])
         for command in commands:
             self.assertLessEqual(set(options(command)), set(self.bash("pintle", command, "--")), command)

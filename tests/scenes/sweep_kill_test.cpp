@@ -169,6 +169,32 @@ TEST_F(SweepKilled, TenTimesUnderMpiItLosesNothingAndRunsNothingTwice) {
   kill_ten_times({PINTLE_MPIRUN, "--oversubscribe", "-n", "2"}, {});
 }
 
+TEST_F(SweepKilled, APartLosesNothingAndIsMergedWhenItIsFinished) {
+  const auto command = [&](const char* out, const Command& more) {
+    Command all{PINTLE_PROGRAM, "sweep", folder_ / "study.yaml", "-q", "--threads", "2", "--out", folder_ / out};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const Command first = command("first", {"--shard", "1/2"});
+  const Command merge{PINTLE_PROGRAM, "merge", "-q", folder_ / "second", folder_ / "first", "--out", folder_ / "merged"};
+  ASSERT_EQ(run(command("whole", {})), 0) << contents(folder_ / "log");
+  ASSERT_EQ(run(command("second", {"--shard", "2/2"})), 0) << contents(folder_ / "log");
+  for (const std::size_t target : {0u, 20u, 60u}) {
+    const std::vector<int> before = fs::exists(folder_ / "first") ? journalled(folder_ / "first") : std::vector<int>();
+    ASSERT_EQ(run(first, [&] { return fs::exists(folder_ / "first") && journalled(folder_ / "first").size() >= target; }), -SIGKILL);
+    const std::vector<int> now = journalled(folder_ / "first");
+    EXPECT_TRUE(std::ranges::equal(before, std::vector<int>(now.begin(), now.begin() + static_cast<std::ptrdiff_t>(before.size()))));
+    EXPECT_EQ(run(merge), 2) << contents(folder_ / "log");
+    EXPECT_FALSE(fs::exists(folder_ / "merged"));
+  }
+  const std::string said = contents(folder_ / "log");
+  EXPECT_NE(said.find("of its 200 cases. Finish it with the command that began it: pintle sweep "), std::string::npos) << said;
+  ASSERT_EQ(run(first), 0) << contents(folder_ / "log");
+  EXPECT_EQ(journalled(folder_ / "first").size(), cases / 2u);
+  ASSERT_EQ(run(merge), 0) << contents(folder_ / "log");
+  EXPECT_EQ(contents(folder_ / "merged/sweep.csv"), contents(folder_ / "whole/sweep.csv"));
+}
+
 TEST_F(SweepKilled, AFitComesToTheSameBits) {
   std::ofstream(folder_ / "fit.yaml")
       << "scene: " PINTLE_SOURCE_DIR

@@ -277,6 +277,26 @@ TEST(Sweep, ProcessesShareTheCasesAndEachIsRunOnce) {
   }
 }
 
+TEST(Sweep, ProcessesShareTheCasesOfAPart) {
+  const SweepFolder folder;
+  Sweep sweep = sweep_in(folder);
+  sweep.part = SweepPart{2, 3};
+  const SweepEnd alone = run_sweep(sweep, folder / "alone", {1, nullptr, {}});
+  EXPECT_EQ(alone.rows.size(), 18u);
+  Post post(2);
+  SweepEnd ends[2];
+  const auto play = [&](int rank) {
+    Played communicator(post, rank);
+    ends[rank] = run_sweep(sweep, folder / "out", {1, &communicator, {}});
+  };
+  std::thread second(play, 1);
+  play(0);
+  second.join();
+  EXPECT_TRUE(ends[0].whole);
+  EXPECT_EQ(ends[0].count.done, 18u);
+  EXPECT_EQ(contents(folder / "out/sweep-part.csv"), contents(folder / "alone/sweep-part.csv"));
+}
+
 TEST(Sweep, ProcessesWithoutThreadsShareTheCasesToo) {
   const SweepFolder folder;
   const Sweep sweep = sweep_in(folder);

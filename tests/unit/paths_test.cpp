@@ -77,6 +77,7 @@ TEST_F(Paths, ResultsGoWhereNothingIs) {
                                                                         {"static", "scene.yaml"},
                                                                         {"mesh", "scene.yaml"},
                                                                         {"sweep", "study.yaml"},
+                                                                        {"merge", "folder"},
                                                                         {"fit", "sought.yaml"},
                                                                         {"sensitivity", "sought.yaml"},
                                                                         {"tradeoff", "trade.yaml"},

@@ -5,6 +5,7 @@
 
 #include "files/files.h"
 #include "framework/common/file.h"
+#include "framework/common/fingerprint.h"
 
 namespace pintle {
 
@@ -19,7 +20,7 @@ void open_folder(const fs::path& folder) {
     const auto is_ours = [&](const fs::path& p) {
       const std::string name = p.filename().string();
       return name.starts_with("journal-") || name.starts_with("study.yaml") || name.starts_with("scene.yaml") ||
-             name.find(".part") != std::string::npos;
+             name.starts_with("part.json") || name.find(".part") != std::string::npos;
     };
     if (!fs::is_directory(folder)) throw SceneError(folder.string(), {}, "exists already and is not a directory; name another with --out");
     const fs::directory_iterator entries(folder);
@@ -37,6 +38,21 @@ std::string text_or_nothing(const fs::path& path) {
     return read_file(path, most_bytes);
   } catch (const FileRefused&) {
     return {};  // then it differs from the stored file
+  }
+}
+
+/// The share of this study's cases that the folder holds, if that is another one than asked for; empty if the study is another.
+std::string other_share(const Sweep& sweep, const fs::path& folder) {
+  try {
+    if (const fs::path file = folder / "part.json"; fs::exists(file)) {
+      const PartFile held = read_part_file(file.string(), text_or_nothing(file));
+      return held.study == fingerprint_text(sweep.print) ? part_text(held.part) + " of this sweep" : "";
+    }
+    if (!sweep.part) return {};
+    const Journal whole(journal_path(folder, 0), sweep.print);
+    return "all cases of this sweep";
+  } catch (const SceneError&) {  // also OtherStudy
+    return {};
   }
 }
 
@@ -62,8 +78,12 @@ std::unique_ptr<Journal> open_study_folder(const Sweep& sweep, const fs::path& f
   const fs::path own = journal_path(folder, 0);
   std::unique_ptr<Journal> journal;
   try {
-    journal = std::make_unique<Journal>(own, sweep.print, &notes);
+    journal = std::make_unique<Journal>(own, sweep.journal_print(), &notes);
   } catch (const OtherStudy&) {
+    if (const std::string share = other_share(sweep, folder); !share.empty())
+      throw SceneError(folder.string(), {},
+                       "holds " + share + ", not " + (sweep.part ? part_text(*sweep.part) : "all cases") +
+                           "; name another directory with --out, or leave --out out");
     throw SceneError(
         folder.string(), {},
         "belongs to another study. " + what_differs(sweep, folder) + ". Name another directory with --out, or remove " + folder.string());
@@ -72,6 +92,7 @@ std::unique_ptr<Journal> open_study_folder(const Sweep& sweep, const fs::path& f
     throw std::runtime_error(folder.string() + ": processes of an earlier session still work there; wait for them, or end them");
   write_synced(folder / "study.yaml", sweep.text);
   write_synced(folder / "scene.yaml", sweep.study.scene.text);
+  if (sweep.part) write_synced(folder / "part.json", part_json(part_file(sweep)));
   return journal;
 }
 

@@ -218,7 +218,7 @@ SweepEnd run_as_follower(const Sweep& sweep, const fs::path& folder, const Sweep
     if (!fs::exists(journal_path(folder, 0)))
       throw std::runtime_error(folder.string() + ": process " + std::to_string(communicator.rank()) +
                                " does not see it; name a directory with --out that all machines share");
-    Journal journal(journal_path(folder, communicator.rank()), sweep.print);
+    Journal journal(journal_path(folder, communicator.rank()), sweep.journal_print());
     Follower follower(sweep, journal, folder, settings);
     last = follower.follow();
     end.shortage = follower.shortage();
@@ -237,13 +237,18 @@ void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& en
     return;
   }
   fs::remove(folder / "sweep-so-far.csv", ignored);
-  if (end.count.done == 0 && fs::exists(folder / "sweep.csv")) return;
+  const fs::path table = folder / table_name(sweep);
+  if (end.count.done == 0 && fs::exists(table)) return;
   write_synced(folder / "timings.csv", timings_csv(end.rows));
   write_synced(folder / "sweep.json", sweep_json(sweep, end));
-  write_synced(folder / "sweep.csv", sweep_csv(sweep, end.rows));
+  write_synced(table, sweep_csv(sweep, end.rows));
 }
 
 }  // namespace
+
+std::uint64_t Sweep::journal_print() const { return part ? part_file(*this).print : print; }
+
+const char* table_name(const Sweep& sweep) { return sweep.part ? "sweep-part.csv" : "sweep.csv"; }
 
 void reject_all(Communicator& communicator) { send_all(communicator, reject); }
 
@@ -265,23 +270,24 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
   try {
     journal = open_study_folder(sweep, folder, end.notes);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
-    for (const Row& row : read_journals(folder, sweep.print, sweep.cases.size(), &end.notes)) ended[row.number] = !lacked_memory(row);
+    for (const Row& row : read_journals(folder, sweep.journal_print(), sweep.cases.size(), &end.notes))
+      ended[row.number] = !lacked_memory(row);
     for (std::size_t k = 1; k < ended.size(); ++k)
-      if (!ended[k]) numbers.push_back(k);
+      if (sweep.has(k) && !ended[k]) numbers.push_back(k);
   } catch (...) {
     if (communicator) reject_all(*communicator);
     throw;
   }
-  end.count.cases = sweep.cases.size();
-  end.count.before = sweep.cases.size() - numbers.size();
+  end.count.cases = sweep.size();
+  end.count.before = sweep.size() - numbers.size();
   if (communicator) send_all(*communicator, go);
   {
     Leader leader(sweep, *journal, folder, settings, numbers, end);
     leader.lead();
   }
   journal.reset();
-  end.rows = read_journals(folder, sweep.print, sweep.cases.size());
-  end.whole = end.rows.size() == sweep.cases.size();
+  end.rows = read_journals(folder, sweep.journal_print(), sweep.cases.size());
+  end.whole = end.rows.size() == sweep.size();
   write_tables(sweep, folder, end);
   return end;
 }

@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/study/study.h"
 #include "framework/study/sweep/communicator.h"
 #include "framework/study/sweep/journal.h"
+#include "framework/study/sweep/part.h"
 #include "framework/study/sweep/sampling.h"
 
 /// Many cases of one scene, distributed to worker threads and processes, safe against being killed. docs/studies.md
@@ -19,11 +21,19 @@ namespace pintle {
 struct Sweep {
   Study study;
   Cases cases;
-  CaseLimits limits;               ///< of each case
-  std::string text;                ///< of the study file
-  std::uint64_t print = 0;         ///< fingerprint of the study, its scene, the files they name, and the program
-  std::vector<Measure> keep = {};  ///< quantities for which each case writes a curve, curves/case-N.csv
+  CaseLimits limits;                   ///< of each case
+  std::string text;                    ///< of the study file
+  std::uint64_t print = 0;             ///< fingerprint of the study, its scene, the files they name, and the program
+  std::vector<Measure> keep = {};      ///< quantities for which each case writes a curve, curves/case-N.csv
+  std::optional<SweepPart> part = {};  ///< of the cases, if not all are to be run
+
+  bool has(std::size_t k) const { return !part || part->has(k); }                           ///< case k, from 1, is to be run
+  std::size_t size() const { return part ? cases_in(*part, cases.size()) : cases.size(); }  ///< number of cases to be run
+  /// In the headings of its journals: the study's, or a part's own.
+  std::uint64_t journal_print() const;
 };
+/// The name of the table in its folder: that of a part is not to be mistaken for the whole.
+const char* table_name(const Sweep&);
 
 /// Reads a study with a section `sweep`, and some of its cases, so that a study with no readable case is rejected at once. `set` applies to
 /// all cases, after the study's own overrides.
@@ -42,7 +52,7 @@ Overrides step_limit(const Node& section);
 
 /// Progress of a sweep. Cases of this process and, in process 0, of the others.
 struct SweepCount {
-  std::size_t cases = 0;    ///< of the study, in total
+  std::size_t cases = 0;    ///< to be run, in total
   std::size_t before = 0;   ///< finished in earlier sessions
   std::size_t done = 0;     ///< finished in this session
   std::size_t trouble = 0;  ///< of these, not "finished"
@@ -58,7 +68,7 @@ struct SweepSettings {
 
 /// Result of a session of a sweep.
 struct SweepEnd {
-  bool whole = false;  ///< all cases are finished
+  bool whole = false;  ///< all cases to be run are finished
   SweepCount count;
   int workers = 1;                 ///< threads of all processes
   std::string shortage;            ///< why this process had fewer threads than requested; empty: it had them
@@ -69,8 +79,8 @@ struct SweepEnd {
 
 /// Runs the cases that are not finished, and writes into `folder` (created, or continued): sweep.csv, identical to the bit for any number
 /// of workers and interruptions; timings.csv; sweep.json; study.yaml and scene.yaml, as run; journal-N.txt. A stopped session writes
-/// sweep-so-far.csv instead of the table. With several processes, all of them call it with the same study and folder; only process 0 writes
-/// tables.
+/// sweep-so-far.csv instead of the table. A part writes sweep-part.csv with its cases, and part.json. With several processes, all of them
+/// call it with the same study and folder; only process 0 writes tables.
 /// @throws SceneError          the folder holds something else, or another study
 /// @throws std::runtime_error  a file cannot be written, or another process uses the folder
 SweepEnd run_sweep(const Sweep&, const std::filesystem::path& folder, const SweepSettings&);

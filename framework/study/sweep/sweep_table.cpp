@@ -135,23 +135,24 @@ std::string sweep_json(const Sweep& sweep, const SweepEnd& end) {
     measures[r.header] = {{"least", r.least}, {"least in case", r.least_in}, {"greatest", r.greatest}, {"greatest in case", r.greatest_in}};
   double busy = 0;
   for (const Row& r : end.rows) busy += r.build_seconds + r.run_seconds;
-  const Json out = {{"program", "pintle"},
-                    {"version", PINTLE_VERSION},
-                    {"title", sweep.study.title},
-                    {"file", sweep.study.file},
-                    {"fingerprint", fingerprint_text(sweep.print)},
-                    {"cases", sweep.cases.size()},
-                    {"ended", end.rows.size()},
-                    {"statuses", statuses(end.rows)},
-                    {"varied", sweep.cases.names},
-                    {"measures", measures},
-                    {"computing time of all cases [s]", busy},
-                    {"this session",
-                     {{"cases", end.count.done},
-                      {"workers", end.workers},
-                      {"elapsed [s]", end.count.seconds},
-                      {"busy [s]", end.count.busy},
-                      {"efficiency", end.efficiency()}}}};
+  Json out = {{"program", "pintle"},
+              {"version", PINTLE_VERSION},
+              {"title", sweep.study.title},
+              {"file", sweep.study.file},
+              {"fingerprint", fingerprint_text(sweep.print)},
+              {"cases", sweep.cases.size()},
+              {"ended", end.rows.size()},
+              {"statuses", statuses(end.rows)},
+              {"varied", sweep.cases.names},
+              {"measures", measures},
+              {"computing time of all cases [s]", busy},
+              {"this session",
+               {{"cases", end.count.done},
+                {"workers", end.workers},
+                {"elapsed [s]", end.count.seconds},
+                {"busy [s]", end.count.busy},
+                {"efficiency", end.efficiency()}}}};
+  if (sweep.part) out["part"] = {{"number", sweep.part->number}, {"of", sweep.part->count}};
   return json_text(out) + "\n";
 }
 
