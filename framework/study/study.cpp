@@ -121,6 +121,14 @@ void require_measures(const StudyFile& file) {
   if (file.study.measures.empty()) file.root().fail("lacks a required key; add for example measure: {peak: peak force at crank pin}");
 }
 
+void require_other_name(const std::string& name, const std::vector<std::string>& columns, const std::string& file, const Place& place) {
+  if (std::ranges::find(columns, name) != columns.end()) throw SceneError(file, place, "\"" + name + "\" " + taken_name);
+}
+
+void require_other_names(const std::vector<Measure>& measures, const std::vector<std::string>& columns) {
+  for (const Measure& m : measures) require_other_name(m.name, columns, m.file, m.place);
+}
+
 std::vector<Measure> read_curves(const StudyFile& file) {
   std::vector<Measure> out;
   if (!file.root().has("keep")) return out;

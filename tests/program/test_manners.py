@@ -105,6 +105,31 @@ class Manners(unittest.TestCase):
         for command in ("run", "check", "statics"):
             self.assertRegex(self.say(command, "study.yaml").stderr, "study.yaml: is a study, not a scene: .*sweep")
 
+    def test_no_two_columns_of_a_study_have_one_name(self):
+        (self.place / "swing.pintle.yaml").write_text(pendulum.replace("mass: 1 kg", "mass: m1") + "parameters: {m1: 1 kg, steps: 1}\n")
+        sweep, fit = "sweep: {grid: {m1: [1 kg, 2 kg]}}\n", "vary: {m1: {from: 1 kg, to: 2 kg}}\ngoal: {minimise: far}\n"
+        scatter, trade = "sensitivity: {parameters: {m1: {uniform: 1 g}}}\n", "tradeoff: {error: 1%, axes: {finer: {run.tolerance: [1e-4, 1e-6]}}}\n"
+        orbits = "section: {every: 10 ms, record: {NAME: rod.angle}, transient: 0, returns: 3}\n"
+        measure = "measure: {far: final x of rod, NAME: final angle of rod}\n"
+        for command, section, taken, free in (("sweep", measure + sweep, ("t_end", "status", "case", "m1", "unexplained share"), "phase"),
+                                              ("fit", measure + fit, ("phase", "goal", "reason", "m1"), "t_end"),
+                                              ("sensitivity", measure + scatter, ("steps", "impacts", "m1"), "goal"),
+                                              ("tradeoff", measure + trade, ("time", "setting", "finer", "error of far"), "m1"),
+                                              ("nonlinear", orbits, ("t", "return", "period"), "case"),
+                                              ("nonlinear", "over: {m1: [1 kg, 2 kg]}\n" + orbits, ("m1",), "steps")):
+            for name in taken + (free,):
+                (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\n" + section.replace("NAME", name))
+                done = self.say(command, "study.yaml", "--out", "out-" + command + name.replace(" ", "") + str(len(section)), "-q")
+                with self.subTest(command + " " + name):
+                    if name == free:
+                        self.assertNotIn("another column", done.stderr)
+                        continue
+                    self.assertEqual(done.returncode, 2, done.stderr)
+                    self.assertRegex(done.stderr, "study.yaml:[23]: .*" + re.escape(f'"{name}" is the name of another column of the study\'s table; choose'))
+        for command, section in (("sweep", "sweep: {grid: {steps: [1, 2]}}\n"), ("tradeoff", trade.replace("finer", "time"))):
+            (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\nmeasure: {far: final x of rod}\n" + section)
+            self.assertRegex(self.say(command, "study.yaml", "--out", "none").stderr, 'study.yaml:3: .*"(steps|time)" is the name of another column')
+
     def test_one_body_is_not_compared_with_itself(self):
         heavy = pendulum.replace("mass: 1 kg", "mass: 1e300 kg")
         (self.place / "heavy.yaml").write_text(heavy)
