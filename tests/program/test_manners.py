@@ -50,6 +50,16 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.say("run", "--help").returncode, 0)
         self.assertEqual(self.say().returncode, 2)
 
+    def test_a_path_without_its_group(self):
+        worn = pendulum.replace("rod.O]", "rod.O], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: ground, "
+                                "normal: {hunt-crossley: {stiffness: 1e9, restitution: 0.7}}}").replace("hinge", "worn pin")
+        (self.place / "worn.yaml").write_text(worn)
+        for path, meant in (("worn pin.clearance.radial", '"joints.worn pin.clearance.radial"'), ("clearance.radial", '"joints.worn pin.clearance.radial"'),
+                            ("rod.rigid.mass", '"bodies.rod.rigid.mass"'), ("worn pin.stop", '"joints.worn pin.stop"'), ("jiont.a", '"joints"')):
+            done = self.say("run", "worn.yaml", "--set", path + "=2 mm")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f'--set {path}: a scene has no key "{path.partition(".")[0]}". Did you mean {meant}?', done.stderr)
+
     def test_every_example_that_runs_can_be_checked(self):
         for scene in sorted(examples.glob("*.yaml")):
             if re.search("^run:", scene.read_text(), re.MULTILINE):
