@@ -1,4 +1,5 @@
 #include "app/command_options.h"
+#include "framework/common/file_names.h"
 
 #include <charconv>
 
@@ -93,8 +94,8 @@ CLI::Validator ends_in(const std::string& ending, const std::string& what) {
       [ending, what](const std::string& path) {
         const std::filesystem::path file = path;
         std::filesystem::path other = file;
-        return file.extension() == ending ? std::string()
-                                          : "is " + path + ", but " + what + "; write " + other.replace_extension(ending).string();
+        return ending_of(file) == ending ? std::string()
+                                         : "is " + path + ", but " + what + "; write " + other.replace_extension(ending).string();
       },
       "");
 }

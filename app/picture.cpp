@@ -20,6 +20,7 @@
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/common/file_names.h"
 #include "framework/scene/error.h"
 
 namespace {
@@ -169,7 +170,7 @@ std::string fields_in(const fs::path& file) {
 void validate_input(const CLI::App& command, const Choice& choice, bool film) {
   const fs::path& given = choice.drawn.directory;
   if (!fs::is_regular_file(given)) return;
-  const std::string ending = given.extension().string(), folder = given.has_parent_path() ? given.parent_path().string() : ".";
+  const std::string ending = ending_of(given), folder = given.has_parent_path() ? given.parent_path().string() : ".";
   if (ending == ".pvd") throw std::invalid_argument(given.string() + ": is a file of a run; name its folder, " + folder);
   if (ending != ".vtu")
     throw std::invalid_argument(given.string() +
@@ -185,7 +186,7 @@ void validate_input(const CLI::App& command, const Choice& choice, bool film) {
 int write(const CLI::App& command, Choice& choice) {
   Drawn& drawn = choice.drawn;
   const bool film = FilmFile::is_film(drawn.file);
-  if (!film && drawn.file.extension() != ".png")
+  if (!film && ending_of(drawn.file) != ".png")
     throw std::invalid_argument(drawn.file.string() +
                                 ": its ending is neither that of a picture nor of a film; write .png, .mp4, .webm or .gif");
   if (film)
@@ -213,7 +214,7 @@ int write(const CLI::App& command, Choice& choice) {
 void validate_ending(const std::string& name, const fs::path& file) {
   if (name == "pintle film" && !FilmFile::is_film(file))
     throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
-  if (name == "pintle picture" && file.extension() != ".png")
+  if (name == "pintle picture" && ending_of(file) != ".png")
     throw std::invalid_argument(file.string() + ": a picture ends in .png; films are made by pintle film");
 }
 

@@ -11,6 +11,7 @@
 #include "app/hdf5/hdf5_file.h"
 #include "app/hdf5/table_kinds.h"
 #include "framework/common/file.h"
+#include "framework/common/file_names.h"
 #include "framework/report/csv_reader.h"
 
 namespace pintle::app {
@@ -26,7 +27,7 @@ std::vector<fs::path> files_ending(const fs::path& folder, const char* ending) {
   std::vector<fs::path> out;
   for (const std::string& name : names_in(folder)) {
     std::error_code error;
-    if (fs::path file = folder / name; file.extension() == ending && fs::is_regular_file(file, error)) out.push_back(std::move(file));
+    if (fs::path file = folder / name; ending_of(file) == ending && fs::is_regular_file(file, error)) out.push_back(std::move(file));
   }
   std::ranges::sort(out);
   return out;

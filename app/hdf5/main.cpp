@@ -9,6 +9,7 @@
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/common/file_names.h"
 #include "framework/common/text.h"
 #include "framework/report/csv_reader.h"
 #include "framework/report/description.h"
@@ -22,7 +23,7 @@ using namespace pintle::app;
 
 /// @throws SceneError  the command line is wrong   @throws std::runtime_error
 void validate_places(const fs::path& directory, const fs::path& file) {
-  if (file.extension() != ".h5" && file.extension() != ".hdf5")
+  if (ending_of(file) != ".h5" && ending_of(file) != ".hdf5")
     throw SceneError(file.string() + ": an HDF5 file is called NAME.h5 or NAME.hdf5");
   if (!fs::exists(directory)) throw ResultsError(directory.string() + ": there is no such folder; name a folder of results");
   if (!fs::is_directory(directory))

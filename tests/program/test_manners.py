@@ -60,6 +60,21 @@ class Manners(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(f'--set {path}: a scene has no key "{path.partition(".")[0]}". Did you mean {meant}?', done.stderr)
 
+    def test_endings_in_any_case(self):
+        self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q", "--set", "output.frames=2").returncode, 0)
+        made = [("report", "out", "--out", "a.HTML"), ("plot", "out", "rod.angle", "--out", "a.Svg")]
+        if (Path(pintle).parent / "pintle-picture").exists():
+            made.append(("picture", "out", "a.PNG"))
+        if (Path(pintle).parent / "pintle-fmu").exists():
+            made.append(("fmu", "swing.pintle.yaml", "--out", "a.FMU"))
+        for words in made:
+            done = self.say(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.place / words[-1]).exists())
+        (self.place / "swing.pintle.yaml").rename(self.place / "Swing.YAML")
+        (self.place / "study.yaml").write_text("scene: Swing.YAML\nmeasure: {x: final x of rod}\nsweep: {grid: {run.tolerance: [1e-6]}}\n")
+        self.assertEqual(self.say("sweep", "study.yaml", "--out", "swept", "-q").returncode, 0)
+
     def test_every_example_that_runs_can_be_checked(self):
         for scene in sorted(examples.glob("*.yaml")):
             if re.search("^run:", scene.read_text(), re.MULTILINE):
