@@ -259,12 +259,14 @@ void add_plot_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
+bool is_passed_on(const std::string& command) {
+  return command == "picture" || command == "film" || command == "view" || command == "fmu" || command == "hdf5";
+}
+
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
-  if (name == "picture" || name == "film" || name == "view" || name == "fmu" ||
-      name == "hdf5") {  // whose options the program that does it knows
-    command.prefix_command()->set_help_flag();
-    command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
+  if (is_passed_on(name)) {
+    command.set_help_flag();
     return;
   }
   add_bounds(command, options);

@@ -52,13 +52,15 @@ const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& 
   return frames[static_cast<std::size_t>(n)];
 }
 
-void write_picture(const Choice& choice) {
+/// @returns its size
+PictureSize write_picture(const Choice& choice) {
   const Drawing drawing = read_frame(frame_of(frames_of(choice.drawn.directory), choice), choice.drawn.deformation);
   Survey survey(choice.drawn.around, choice.drawn.style.field);
   survey.add(drawing);
   FramePicture picture(choice.drawn.style, survey, drawing);
   picture.draw(drawing);
   picture.canvas().write_png(choice.drawn.file);
+  return {picture.width(), picture.height()};
 }
 
 /// @returns NaN: not a number
@@ -203,10 +205,9 @@ int write(const CLI::App& command, Choice& choice) {
     std::cerr << "pintle: " << app::stopped_by() << "; there is no film\n";
     return app::stopped;
   }
-  if (fs::is_regular_file(drawn.directory))
-    write_field_picture(drawn.directory, drawn.style, drawn.file);
-  else
-    write_picture(choice);
+  const bool of_body = fs::is_regular_file(drawn.directory);
+  const PictureSize size = of_body ? write_field_picture(drawn.directory, drawn.style, drawn.file) : write_picture(choice);
+  if (!drawn.quiet) std::cout << "  " << drawn.file.string() << "  " << size.width << " x " << size.height << "\n";
   return app::ok;
 }
 

@@ -166,6 +166,13 @@ class Hdf5(unittest.TestCase):
             self.assertGreater(len(file["trajectory/t"]), 900)
             self.equals_its_tables(file, left)
 
+    def test_a_folder_and_a_file_of_any_name(self):
+        self.folder({"t.csv": "t [s]\n1\n"}, "-x")
+        for words in (("--", "-x"), ("-q", "--", "-x", "-y.H5"), ("--out", "z.HDF5", "--", "-x")):
+            done = self.say("hdf5", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(all((self.place / file).exists() for file in ("-x/results.h5", "-y.H5", "z.HDF5")))
+
     def test_what_cannot_be_read_is_named(self):
         cut = self.folder({"t.csv": "t [s],x\n0,1\n1,2"})
         for text, said in (("t [s],x\n0,1\n1,2", "t.csv:3: the line is cut off"), ("t [s],x\n0,1\n1\n", "t.csv:3: has 1 fields, but the header has 2"),

@@ -50,6 +50,12 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.say("run", "--help").returncode, 0)
         self.assertEqual(self.say().returncode, 2)
 
+    def test_hdf5_is_an_option_of_run_alone(self):
+        for words in (("sweep", "study.yaml", "--hdf5"), ("inverse", "swing.pintle.yaml", "--hdf5"), ("report", "--hdf5", "out")):
+            done = self.say(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{words[0]} has no option --hdf5; `pintle hdf5 DIR` turns the tables of a folder of results into HDF5", done.stderr)
+
     def test_a_path_without_its_group(self):
         worn = pendulum.replace("rod.O]", "rod.O], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: ground, "
                                 "normal: {hunt-crossley: {stiffness: 1e9, restitution: 0.7}}}").replace("hinge", "worn pin")
@@ -70,6 +76,7 @@ class Manners(unittest.TestCase):
         for words in made:
             done = self.say(*words)
             self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("  " + words[-1], done.stdout)  # each says what it wrote
             self.assertTrue((self.place / words[-1]).exists())
         (self.place / "swing.pintle.yaml").rename(self.place / "Swing.YAML")
         (self.place / "study.yaml").write_text("scene: Swing.YAML\nmeasure: {x: final x of rod}\nsweep: {grid: {run.tolerance: [1e-6]}}\n")
