@@ -81,8 +81,8 @@ void FilmFile::foresee(const fs::path& file) {
   if (!ffmpeg_is_there()) throw std::runtime_error(no_ffmpeg);
   std::error_code ignored;
   const auto refuse = [&](int error) {
-    throw FileError(
-        file, "cannot be written: " + std::generic_category().message(error) + "; name a film in an existing folder with write permission");
+    throw std::runtime_error(file.string() + ": cannot be written (" + std::generic_category().message(error) +
+                             "); name a film in an existing folder with write permission");
   };
   if (fs::is_directory(file, ignored)) refuse(EISDIR);
   const fs::path part = unique_neighbour(file);

@@ -1,8 +1,12 @@
 #include "app/frames.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -22,6 +26,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
+#include "framework/output/results_directory.h"
 #include "framework/scene/colour.h"
 
 namespace pintle {
@@ -190,11 +195,18 @@ std::vector<FrameFiles> frames_of(const fs::path& directory) {
     throw std::runtime_error(directory.string() + ": no such folder; name one that `pintle run` has written");
   if (!fs::is_regular_file(pvd)) {
     std::vector<FrameFiles> kept = unlisted_frames(directory / "frames");
-    if (kept.empty())
-      throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd); run its scene again with --set output.frames=100");
-    std::cerr << directory.string() << ": the run did not finish; its frames end at " << kept.back().t << " s\n";
+    if (kept.empty()) {
+      const std::string why = why_without("frames", directory);
+      throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd)" +
+                               (why.empty() ? "; run its scene again with --set output.frames=100" : ": " + why));
+    }
+    std::cerr << directory.string()
+              << (is_being_filled(directory) ? ": the run is still going on; so far its frames" : ": the run did not finish; its frames")
+              << " end at " << kept.back().t << " s\n";
     return kept;
   }
+  if (::access(pvd.c_str(), R_OK) != 0)
+    throw std::runtime_error(pvd.string() + ": cannot be read (" + std::strerror(errno) + "); check its permissions");
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   std::vector<FrameFiles> frames;

@@ -41,8 +41,8 @@ std::ifstream opened(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in || in.peek() == std::char_traits<char>::eof())
-    throw ResultsError(file.string() + ": cannot be read: " + (errno ? std::strerror(errno) : "it is empty") +
-                       "; run the scene again, or name another results folder");
+    throw ResultsError(file.string() + ": cannot be read" + (errno ? std::string(" (") + std::strerror(errno) + ")" : ": it is empty") +
+                       (errno == EACCES ? "; check its permissions" : "; run the scene again, or name another results folder"));
   return in;
 }
 

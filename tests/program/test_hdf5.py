@@ -175,6 +175,28 @@ class Hdf5(unittest.TestCase):
             self.assertGreater(len(file["trajectory/t"]), 900)
             self.equals_its_tables(file, left)
 
+    def killed(self, text):
+        """The folder of a run of this scene, still running; it is killed when the test ends."""
+        (self.place / "scene.yaml").write_text(text)
+        process = subprocess.Popen([pintle, "run", "scene.yaml", "--out", "out", "--quiet"], cwd=self.place)
+        self.addCleanup(lambda: (process.kill(), process.wait()))
+        while process.poll() is None:
+            found = list(self.place.glob("out.part-*/trajectory.csv"))
+            if found and found[0].read_bytes().count(b"\n") > 100:
+                break
+            time.sleep(0.002)
+        return process, next(self.place.glob("out.part-*"))
+
+    def test_a_run_that_goes_on_is_told_from_a_killed_one(self):
+        process, folder = self.killed(scene.replace("until: 0.3 s", "until: 900 s, max steps: 2000000000"))
+        done = self.say("hdf5", folder, "now.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{folder}: the run is still going on; the file holds the rows that are on the disk by now", done.stderr)
+        with h5py.File(self.place / "now.h5", "r") as file:
+            self.assertEqual({k for k in file if isinstance(file[k], h5py.Dataset)}, {"run.json"})  # nothing else ends in .json
+        process.kill(), process.wait()
+        self.assertIn(f"{folder}: the run did not finish;", self.say("hdf5", folder, "then.h5").stderr)
+
     def test_columns_of_text_are_text_without_rows_too(self):
         (self.place / "s.yaml").write_text(pendulum)
         many = "scene: s.yaml\nmeasure: {turn: final angle of rod}\n"
@@ -217,6 +239,14 @@ class Hdf5(unittest.TestCase):
             done = self.say("hdf5", *words)
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(all((self.place / file).exists() for file in ("-x/results.h5", "-y.H5", "z.HDF5")))
+
+    def test_what_a_folder_without_tables_holds_is_told(self):
+        self.folder({"journal-0.txt": "", "study.yaml": "", "scene.yaml": ""}, "study")
+        self.assertIn("study: has no tables (.csv): it holds a study that has not ended; give its command again with the same --out",
+                      self.say("hdf5", "study").stderr)
+        self.folder({}, "out.part-abcdef")
+        self.assertIn("out.part-abcdef: has no tables (.csv): its run was killed before it wrote any tables; run its scene again",
+                      self.say("hdf5", "out.part-abcdef").stderr)
 
     def test_what_cannot_be_read_is_named(self):
         cut = self.folder({"t.csv": "t [s],x\n0,1\n1,2"})
