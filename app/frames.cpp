@@ -36,8 +36,15 @@ using Eigen::Vector2d;
 
 namespace {
 
+/// VTK's readers do not say why a file cannot be read. @throws std::runtime_error
+void require_readable(const fs::path& file) {
+  if (::access(file.c_str(), R_OK) != 0)
+    throw std::runtime_error(file.string() + ": cannot be read (" + std::strerror(errno) + "); check its permissions");
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
+  require_readable(file);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -205,8 +212,7 @@ std::vector<FrameFiles> frames_of(const fs::path& directory) {
               << " end at " << kept.back().t << " s\n";
     return kept;
   }
-  if (::access(pvd.c_str(), R_OK) != 0)
-    throw std::runtime_error(pvd.string() + ": cannot be read (" + std::strerror(errno) + "); check its permissions");
+  require_readable(pvd);
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   std::vector<FrameFiles> frames;
@@ -232,6 +238,7 @@ Drawing read_frame(const FrameFiles& files, std::optional<double> deformation) {
 
 DrawnBody read_body(const fs::path& file) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
+  require_readable(file);
   if (reader->CanReadFile(file.c_str()) == 0) throw std::runtime_error(file.string() + ": is not a .vtu file that can be read");
   const auto grid = read_grid(file);
   DrawnBody body = body_of(grid, file.stem().string(), file);

@@ -107,6 +107,8 @@ class Folders(unittest.TestCase):
         for file in (self.place / "unread").rglob("*"):
             if file.is_file():
                 file.chmod(0)
+        shutil.copytree(self.place / "run", self.place / "frames")
+        (self.place / "frames" / "frames" / "00002.vtu").chmod(0)
         (self.place / "mine").mkdir()
         for folder, mode in (("mine", 0o555), ("run", 0o555), ("closed", 0o000)):
             (self.place / folder).chmod(mode)
@@ -135,7 +137,9 @@ class Folders(unittest.TestCase):
             expected.append(("closed/run: " + denied + above, "hdf5", "closed/run", "a.h5"))
         if has_pictures:
             expected += [("closed/run: " + denied + above, "picture", "closed/run", "a.png"),
-                         ("unread/run/mechanism.pvd: " + denied + look, "picture", "unread/run", "a.png")]
+                         ("unread/run/mechanism.pvd: " + denied + look, "picture", "unread/run", "a.png"),
+                         ("frames/frames/00002.vtu: " + denied + look, "picture", "frames", "a.png"),
+                         ("frames/frames/00002.vtu: " + denied + look, "picture", "frames/frames/00002.vtu", "a.png", "--field", "x")]
         for said, *words in expected:
             with self.subTest(" ".join(words)):
                 done = self.say(*words, **anyone)
