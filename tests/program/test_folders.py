@@ -60,7 +60,8 @@ class Folders(unittest.TestCase):
                 heading = (self.place / "run" / table).read_text().partition("\n")[0] + "\n"
                 (folder / table).write_text(heading if tables else "")
             if tables:
-                (folder / "run.json").write_text(json.dumps({"status": "unfinished", "title": "", "file": run["file"], "scene": run["scene"]}, indent=2))
+                begun = {"status": "unfinished", "title": "", "file": run["file"], "scene": run["scene"]}
+                (folder / "run.json").write_text(json.dumps(begun, indent=2))
             self.refusal(f"{name}: has nothing to show: its run was killed before it wrote any motion; run its scene again", "report", name)
             self.refusal(f"{name}: has nothing to plot: its run was killed before it wrote any rows over time; run its scene again",
                          "plot", name, "rod.angle")
@@ -71,7 +72,8 @@ class Folders(unittest.TestCase):
                     self.refusal(said, "film", name, "a.mp4")
         self.done("run", "s.yaml", "--set", "output.frames=0", "--out", "frameless", "-q")
         if has_pictures:
-            self.refusal("frameless: holds no frames (mechanism.pvd); run its scene again with --set output.frames=100", "picture", "frameless", "a.png")
+            self.refusal("frameless: holds no frames (mechanism.pvd); run its scene again with --set output.frames=100",
+                         "picture", "frameless", "a.png")
 
     def test_a_study(self):
         self.done("sweep", "sweep.yaml", "--out", "sweep", "-q")
@@ -87,7 +89,8 @@ class Folders(unittest.TestCase):
         self.done("report", "sweep")
         if has_pictures:
             self.refusal("begun: holds no frames (mechanism.pvd): " + goes_on, "picture", "begun", "a.png")
-            self.refusal("sweep: holds no frames (mechanism.pvd): it holds a sweep, which has no frames; name the folder of a run", "picture", "sweep", "a.png")
+            self.refusal("sweep: holds no frames (mechanism.pvd): it holds a sweep, which has no frames; name the folder of a run",
+                         "picture", "sweep", "a.png")
         if has_hdf5:
             self.refusal("begun: has no tables (.csv): " + goes_on, "hdf5", "begun")
             self.done("hdf5", "sweep")
@@ -116,9 +119,11 @@ class Folders(unittest.TestCase):
 
         denied, look = "cannot be read (Permission denied); check ", "its permissions"
         above = "its permissions and those of the folders above it"
-        expected = [("unread/s.yaml: " + denied + look, "run", "unread/s.yaml"), ("unread/sweep.yaml: " + denied + look, "sweep", "unread/sweep.yaml"),
+        expected = [("unread/s.yaml: " + denied + look, "run", "unread/s.yaml"),
+                    ("unread/sweep.yaml: " + denied + look, "sweep", "unread/sweep.yaml"),
                     ("closed/s.yaml: " + denied + look, "check", "closed/s.yaml"),
-                    ("unread/run/run.json: " + denied + look, "report", "unread/run"), ("unread/run/trajectory.csv: " + denied + look, "plot", "unread/run", "t"),
+                    ("unread/run/run.json: " + denied + look, "report", "unread/run"),
+                    ("unread/run/trajectory.csv: " + denied + look, "plot", "unread/run", "t"),
                     ("closed/run: " + denied + above, "report", "closed/run"), ("closed/run: " + denied + above, "plot", "closed/run", "t"),
                     ("closed/run: " + denied + above, "run", "s.yaml", "--allow-path", "closed/run")]
         unmade, unwritten = ": cannot be made (Permission denied); ", ": cannot be written (Permission denied); "

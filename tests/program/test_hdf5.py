@@ -220,7 +220,8 @@ class Hdf5(unittest.TestCase):
             for column in kinds[0].keys() - varied:
                 self.assertEqual(kinds[0][column], kinds[1][column], (command, column))
                 seen |= {column} if kinds[0][column] != numpy.float64 else set()
-        for column in (("events", "joint"), ("actions", "did"), ("sweep", "reason"), ("timings", "process.thread"), ("values", "reason"), ("statics", "quantity")):
+        for column in (("events", "joint"), ("actions", "did"), ("sweep", "reason"), ("timings", "process.thread"), ("values", "reason"),
+                       ("statics", "quantity")):
             self.assertIn(column, seen)
         points = self.converted(self.folder({"points.csv": "point,x [m]\n12,0.5\n013,1\n"}, "points"))
         self.assertEqual([p.decode() for p in points["points/point"][:]], ["12", "013"])

@@ -60,7 +60,8 @@ class Manners(unittest.TestCase):
         worn = pendulum.replace("rod.O]", "rod.O], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: ground, "
                                 "normal: {hunt-crossley: {stiffness: 1e9, restitution: 0.7}}}").replace("hinge", "worn pin")
         (self.place / "worn.yaml").write_text(worn)
-        for path, meant in (("worn pin.clearance.radial", '"joints.worn pin.clearance.radial"'), ("clearance.radial", '"joints.worn pin.clearance.radial"'),
+        radial = '"joints.worn pin.clearance.radial"'
+        for path, meant in (("worn pin.clearance.radial", radial), ("clearance.radial", radial),
                             ("rod.rigid.mass", '"bodies.rod.rigid.mass"'), ("worn pin.stop", '"joints.worn pin.stop"'), ("jiont.a", '"joints"')):
             done = self.say("run", "worn.yaml", "--set", path + "=2 mm")
             self.assertEqual(done.returncode, 2)
@@ -157,7 +158,8 @@ class Manners(unittest.TestCase):
                         self.assertNotIn("another column", done.stderr)
                         continue
                     self.assertEqual(done.returncode, 2, done.stderr)
-                    self.assertRegex(done.stderr, "study.yaml:[23]: .*" + re.escape(f'"{name}" is the name of another column of the study\'s table; choose'))
+                    said = f'"{name}" is the name of another column of the study\'s table; choose'
+                    self.assertRegex(done.stderr, "study.yaml:[23]: .*" + re.escape(said))
         for command, section in (("sweep", "sweep: {grid: {steps: [1, 2]}}\n"), ("tradeoff", trade.replace("finer", "time"))):
             (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\nmeasure: {far: final x of rod}\n" + section)
             self.assertRegex(self.say(command, "study.yaml", "--out", "none").stderr, 'study.yaml:3: .*"(steps|time)" is the name of another column')
