@@ -1,4 +1,5 @@
 #include "app/command_options.h"
+#include "framework/common/file_names.h"
 
 #include <charconv>
 
@@ -93,8 +94,8 @@ CLI::Validator ends_in(const std::string& ending, const std::string& what) {
       [ending, what](const std::string& path) {
         const std::filesystem::path file = path;
         std::filesystem::path other = file;
-        return file.extension() == ending ? std::string()
-                                          : "is " + path + ", but " + what + "; write " + other.replace_extension(ending).string();
+        return ending_of(file) == ending ? std::string()
+                                         : "is " + path + ", but " + what + "; write " + other.replace_extension(ending).string();
       },
       "");
 }
@@ -291,12 +292,14 @@ void add_plot_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
+bool is_passed_on(const std::string& command) {
+  return command == "picture" || command == "film" || command == "view" || command == "fmu" || command == "hdf5";
+}
+
 void add_options(CLI::App& command, Options& options) {
   const std::string name = command.get_name();
-  if (name == "picture" || name == "film" || name == "view" || name == "fmu" ||
-      name == "hdf5") {  // whose options the program that does it knows
-    command.prefix_command()->set_help_flag();
-    command.final_callback([&command, &options] { options.passed_on = command.remaining(); });
+  if (is_passed_on(name)) {
+    command.set_help_flag();
     return;
   }
   if (name == "merge") return add_merge_options(command, options);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -50,6 +51,11 @@ int report_failure() {
   } catch (const std::bad_alloc&) {
     report_lack_of_memory();
     return trouble;
+  } catch (const std::filesystem::filesystem_error& e) {
+    return failed_with((e.path1().string() + ": cannot be read (" + e.code().message() +
+                        "); check its permissions and those of the folders above it" + where_results_are())
+                           .c_str(),
+                       trouble);
   } catch (const std::exception& e) {
     const bool says_where = std::strstr(e.what(), "the results are in") != nullptr;
     std::cerr << "pintle: " << e.what() << (says_where ? "" : where_results_are()) << "\n";

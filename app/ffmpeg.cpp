@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "framework/common/file.h"
+#include "framework/common/file_names.h"
 #include "framework/common/text.h"
 
 extern char** environ;
@@ -36,7 +37,7 @@ std::vector<std::string> packing(const std::string& ending) {
 }
 
 /// For the name of a film: `file:` prevents ffmpeg from treating it as an address or an option.
-std::vector<std::string> arguments(const fs::path& ending, const fs::path& part, int width, int height, double rate) {
+std::vector<std::string> arguments(const std::string& ending, const fs::path& part, int width, int height, double rate) {
   std::string pictures_a_second;
   append_number(pictures_a_second, rate);
   std::vector<std::string> out{"ffmpeg",
@@ -80,8 +81,8 @@ void FilmFile::foresee(const fs::path& file) {
   if (!ffmpeg_is_there()) throw std::runtime_error(no_ffmpeg);
   std::error_code ignored;
   const auto refuse = [&](int error) {
-    throw FileError(
-        file, "cannot be written: " + std::generic_category().message(error) + "; name a film in an existing folder with write permission");
+    throw std::runtime_error(file.string() + ": cannot be written (" + std::generic_category().message(error) +
+                             "); name a film in an existing folder with write permission");
   };
   if (fs::is_directory(file, ignored)) refuse(EISDIR);
   const fs::path part = unique_neighbour(file);
@@ -92,7 +93,7 @@ void FilmFile::foresee(const fs::path& file) {
 }
 
 bool FilmFile::is_film(const fs::path& file) {
-  const fs::path ending = file.extension();
+  const std::string ending = ending_of(file);
   return ending == ".mp4" || ending == ".webm" || ending == ".gif";
 }
 
@@ -106,7 +107,7 @@ void FilmFile::start(int width, int height, double rate) {
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw FileError(file_, errno, "cannot be made");
   pictures_ = pipe[1];
-  std::vector<std::string> words = arguments(file_.extension(), part_, width, height, rate);
+  std::vector<std::string> words = arguments(ending_of(file_), part_, width, height, rate);
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

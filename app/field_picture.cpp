@@ -5,7 +5,7 @@
 
 namespace pintle {
 
-void write_field_picture(const std::filesystem::path& file, PictureStyle style, const std::filesystem::path& picture) {
+PictureSize write_field_picture(const std::filesystem::path& file, PictureStyle style, const std::filesystem::path& picture) {
   Drawing drawing;
   drawing.bodies.push_back(read_body(file));
   drawing.owners = {drawing.bodies.back().name};
@@ -15,6 +15,7 @@ void write_field_picture(const std::filesystem::path& file, PictureStyle style, 
   FramePicture drawn(style, survey, drawing);
   drawn.draw(drawing);
   drawn.canvas().write_png(picture);
+  return {drawn.width(), drawn.height()};
 }
 
 }  // namespace pintle

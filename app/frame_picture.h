@@ -8,6 +8,10 @@
 
 namespace pintle {
 
+struct PictureSize {
+  int width, height;  ///< [px]
+};
+
 /// Style of frames, the same for all frames of a film.
 struct PictureStyle {
   int width = 1400, height = 0;  ///< [px]; height 0: chosen by the content

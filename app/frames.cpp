@@ -1,8 +1,12 @@
 #include "app/frames.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -22,6 +26,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
+#include "framework/output/results_directory.h"
 #include "framework/scene/colour.h"
 
 namespace pintle {
@@ -31,8 +36,15 @@ using Eigen::Vector2d;
 
 namespace {
 
+/// VTK's readers do not say why a file cannot be read. @throws std::runtime_error
+void require_readable(const fs::path& file) {
+  if (::access(file.c_str(), R_OK) != 0)
+    throw std::runtime_error(file.string() + ": cannot be read (" + std::strerror(errno) + "); check its permissions");
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
+  require_readable(file);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -190,11 +202,17 @@ std::vector<FrameFiles> frames_of(const fs::path& directory) {
     throw std::runtime_error(directory.string() + ": no such folder; name one that `pintle run` has written");
   if (!fs::is_regular_file(pvd)) {
     std::vector<FrameFiles> kept = unlisted_frames(directory / "frames");
-    if (kept.empty())
-      throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd); run its scene again with --set output.frames=100");
-    std::cerr << directory.string() << ": the run did not finish; its frames end at " << kept.back().t << " s\n";
+    if (kept.empty()) {
+      const std::string why = why_without("frames", directory);
+      throw std::runtime_error(directory.string() + ": holds no frames (mechanism.pvd)" +
+                               (why.empty() ? "; run its scene again with --set output.frames=100" : ": " + why));
+    }
+    std::cerr << directory.string()
+              << (is_being_filled(directory) ? ": the run is still going on; so far its frames" : ": the run did not finish; its frames")
+              << " end at " << kept.back().t << " s\n";
     return kept;
   }
+  require_readable(pvd);
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
   std::vector<FrameFiles> frames;
@@ -220,6 +238,7 @@ Drawing read_frame(const FrameFiles& files, std::optional<double> deformation) {
 
 DrawnBody read_body(const fs::path& file) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
+  require_readable(file);
   if (reader->CanReadFile(file.c_str()) == 0) throw std::runtime_error(file.string() + ": is not a .vtu file that can be read");
   const auto grid = read_grid(file);
   DrawnBody body = body_of(grid, file.stem().string(), file);

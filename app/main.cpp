@@ -75,8 +75,10 @@ int carry_out(int argc, char** argv) {
        statics},
       {app.add_subcommand("mesh", "Mesh one body of elements and check the mesh quality"), mesh}};
   for (const auto& [command, unused] : commands) add_options(*command, options);
+  const bool passed_on = argc > 1 && is_passed_on(argv[1]);
+  if (passed_on) options.passed_on.assign(argv + 2, argv + argc);
   try {
-    app.parse(argc, argv);
+    app.parse(passed_on ? 2 : argc, argv);
   } catch (const CLI::ParseError& e) {
     return end_of(app, e, argc, argv);
   }

@@ -119,9 +119,9 @@ class Recording {
         scene_(scene),
         model_(model),
         assembly_(assembly),
-        files_(directory, model),
         identity_(identity(scene, model, assembly)),
-        kept_for_report_(directory / "room for run.json", least_room + 4 * scene.filled_in.size()) {
+        files_(directory, scene, model),
+        kept_for_report_(directory / "run.json", least_room + 4 * scene.filled_in.size()) {
     files_.flush();  // what a kill leaves has headings, and says of what scene it is
     write_text(directory_ / "run.json", begun_json(scene));
     if (scene.output.frames < 2) return;
@@ -131,17 +131,15 @@ class Recording {
 
   Listeners listeners() {
     Listeners out;
-    out.rows = [this](const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts) {
-      files_.add(trajectory, ledger, impacts);
-    };
+    out.rows = [this](const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts,
+                      const std::vector<Happening>& happenings) { files_.add(trajectory, ledger, impacts, happenings); };
     out.state = [this](const SavedState& state) { add(state); };
     if (writer_) out.frame = [this](const State& state, const Equations& eq) { writer_->add(draw(model_, *drafting_, state, eq)); };
     return out;
   }
   void finish(const Run& run) {
     if (writer_) writer_->finish(drawn_impacts(run.impacts));
-    files_.finish(run.impacts);
-    write_actions(directory_, scene_, run);
+    files_.finish(run.impacts, run.happenings);
   }
   void report(const Run& run) {
     kept_for_report_.release();
@@ -165,8 +163,8 @@ class Recording {
   const Scene& scene_;
   const Model& model_;
   const Assembly& assembly_;
-  RunFiles files_;
   const std::string identity_;  ///< identity to which saved states belong
+  RunFiles files_;
   ReservedRoom kept_for_report_;
   std::optional<FrameWriter> writer_;
   std::optional<Drafting> drafting_;

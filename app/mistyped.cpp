@@ -56,8 +56,9 @@ std::string mistyped(const CLI::App& app, int argc, char** argv) {
   for (const std::string& word : app.remaining(true))
     if (is_option(word)) {
       const std::string option = word.substr(0, word.find('='));
-      return full.substr(full.find(' ') + 1) + " has no option " + option + "." + did_you_mean(option, option_names(*command)) + " " +
-             full + " --help explains each.";
+      const std::string name = full.substr(full.find(' ') + 1);
+      if (option == "--hdf5") return name + " has no option --hdf5; `pintle hdf5 DIR` turns the tables of a folder of results into HDF5";
+      return name + " has no option " + option + "." + did_you_mean(option, option_names(*command)) + " " + full + " --help explains each.";
     }
   return "";
 }

@@ -20,6 +20,7 @@
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/common/file_names.h"
 #include "framework/scene/error.h"
 
 namespace {
@@ -51,13 +52,15 @@ const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& 
   return frames[static_cast<std::size_t>(n)];
 }
 
-void write_picture(const Choice& choice) {
+/// @returns its size
+PictureSize write_picture(const Choice& choice) {
   const Drawing drawing = read_frame(frame_of(frames_of(choice.drawn.directory), choice), choice.drawn.deformation);
   Survey survey(choice.drawn.around, choice.drawn.style.field);
   survey.add(drawing);
   FramePicture picture(choice.drawn.style, survey, drawing);
   picture.draw(drawing);
   picture.canvas().write_png(choice.drawn.file);
+  return {picture.width(), picture.height()};
 }
 
 /// @returns NaN: not a number
@@ -169,7 +172,7 @@ std::string fields_in(const fs::path& file) {
 void validate_input(const CLI::App& command, const Choice& choice, bool film) {
   const fs::path& given = choice.drawn.directory;
   if (!fs::is_regular_file(given)) return;
-  const std::string ending = given.extension().string(), folder = given.has_parent_path() ? given.parent_path().string() : ".";
+  const std::string ending = ending_of(given), folder = given.has_parent_path() ? given.parent_path().string() : ".";
   if (ending == ".pvd") throw std::invalid_argument(given.string() + ": is a file of a run; name its folder, " + folder);
   if (ending != ".vtu")
     throw std::invalid_argument(given.string() +
@@ -185,7 +188,7 @@ void validate_input(const CLI::App& command, const Choice& choice, bool film) {
 int write(const CLI::App& command, Choice& choice) {
   Drawn& drawn = choice.drawn;
   const bool film = FilmFile::is_film(drawn.file);
-  if (!film && drawn.file.extension() != ".png")
+  if (!film && ending_of(drawn.file) != ".png")
     throw std::invalid_argument(drawn.file.string() +
                                 ": its ending is neither that of a picture nor of a film; write .png, .mp4, .webm or .gif");
   if (film)
@@ -202,10 +205,9 @@ int write(const CLI::App& command, Choice& choice) {
     std::cerr << "pintle: " << app::stopped_by() << "; there is no film\n";
     return app::stopped;
   }
-  if (fs::is_regular_file(drawn.directory))
-    write_field_picture(drawn.directory, drawn.style, drawn.file);
-  else
-    write_picture(choice);
+  const bool of_body = fs::is_regular_file(drawn.directory);
+  const PictureSize size = of_body ? write_field_picture(drawn.directory, drawn.style, drawn.file) : write_picture(choice);
+  if (!drawn.quiet) std::cout << "  " << drawn.file.string() << "  " << size.width << " x " << size.height << "\n";
   return app::ok;
 }
 
@@ -213,7 +215,7 @@ int write(const CLI::App& command, Choice& choice) {
 void validate_ending(const std::string& name, const fs::path& file) {
   if (name == "pintle film" && !FilmFile::is_film(file))
     throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");
-  if (name == "pintle picture" && file.extension() != ".png")
+  if (name == "pintle picture" && ending_of(file) != ".png")
     throw std::invalid_argument(file.string() + ": a picture ends in .png; films are made by pintle film");
 }
 

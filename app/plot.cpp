@@ -42,6 +42,8 @@ std::vector<fs::path> tables_in(const fs::path& directory) {
   std::vector<fs::path> out;
   for (const char* const name : {"trajectory.csv", "ledger.csv"})
     if (fs::exists(directory / name)) out.push_back(directory / name);
+  const std::string why = time_of_last_row(directory) ? "" : why_without("rows over time", directory);
+  if (!why.empty()) throw ResultsError(directory.string() + ": has nothing to plot: " + why);
   if (out.empty())
     throw ResultsError(directory.string() + ": holds neither trajectory.csv nor ledger.csv; name a folder that `pintle run` has written");
   return out;

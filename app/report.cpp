@@ -8,7 +8,9 @@
 #include "app/run_end.h"
 #include "framework/common/file.h"
 #include "framework/output/results_directory.h"
+#include "framework/report/csv_reader.h"
 #include "framework/report/run_report.h"
+#include "framework/report/table_report.h"
 
 namespace pintle::app {
 
@@ -22,6 +24,9 @@ void write_report(const fs::path& directory, const fs::path& file, double megaby
 int report(const Options& options) {
   const fs::path directory = without_slash(options.scene);
   const fs::path file = options.out.empty() ? directory / "report.html" : fs::path(options.out);
+  const bool there = fs::is_directory(directory), shown = there && (time_of_last_row(directory) || has_table_page(directory));
+  const std::string why = there && !shown ? why_without("motion", directory) : "";
+  if (!why.empty()) throw ResultsError(directory.string() + ": has nothing to show: " + why);
   if (!options.out.empty()) require_file_place(file);
   write_report(directory, file, options.megabytes);
   if (!options.quiet)

@@ -1,6 +1,7 @@
 #include "app/run_end.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -42,7 +43,12 @@ void require_file_place(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))
     throw std::runtime_error(file.string() + ": cannot be written: there is no folder " + folder.string() + "; create it, or name another");
-  fs::remove(make_unique_folder(folder / ".pintle"), error);
+  try {
+    fs::remove(make_unique_folder(folder / ".pintle"), error);
+  } catch (const FileError&) {
+    const int why = errno;
+    throw FileError(file, why);
+  }
 }
 
 void tell_leftovers(const Options& options, const fs::path& out) {

@@ -87,7 +87,7 @@ std::shared_ptr<const FmuPrepared> FmuInstance::prepared_for(const FmuSettings& 
 
 void FmuInstance::begin(const SavedState* from) {
   Listeners listeners;
-  listeners.rows = [](const Table&, const Table&, const std::vector<Impact>&) {};  // they are not kept
+  listeners.rows = [](const Table&, const Table&, const std::vector<Impact>&, const std::vector<Happening>&) {};  // they are not kept
   simulation_ = std::make_unique<Simulation>(prepared_->scene, prepared_->model, prepared_->assembly, listeners, from);
   tally_ = {};
   tally_.look(contents_.variables, prepared_->model.system.contact_names, simulation_->happenings(), simulation_->impacts());

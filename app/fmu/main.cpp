@@ -8,6 +8,7 @@
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/common/file_names.h"
 #include "framework/common/library_threads.h"
 #include "framework/scene/error.h"
 
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
   return parse_and_run(command, argc, argv, [&] {
     order.scene = scene, order.out = out;
     order.set = overrides(options);
-    if (!order.out.empty() && order.out.extension() != ".fmu") throw SceneError("--out " + out + ": a unit is called NAME.fmu");
+    if (!order.out.empty() && ending_of(order.out) != ".fmu") throw SceneError("--out " + out + ": a unit is called NAME.fmu");
     return export_scene(order, quiet);
   });
 }

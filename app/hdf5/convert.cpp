@@ -11,6 +11,8 @@
 #include "app/hdf5/hdf5_file.h"
 #include "app/hdf5/table_kinds.h"
 #include "framework/common/file.h"
+#include "framework/common/file_names.h"
+#include "framework/output/results_directory.h"
 #include "framework/report/csv_reader.h"
 
 namespace pintle::app {
@@ -26,7 +28,7 @@ std::vector<fs::path> files_ending(const fs::path& folder, const char* ending) {
   std::vector<fs::path> out;
   for (const std::string& name : names_in(folder)) {
     std::error_code error;
-    if (fs::path file = folder / name; file.extension() == ending && fs::is_regular_file(file, error)) out.push_back(std::move(file));
+    if (fs::path file = folder / name; ending_of(file) == ending && fs::is_regular_file(file, error)) out.push_back(std::move(file));
   }
   std::ranges::sort(out);
   return out;
@@ -36,7 +38,7 @@ std::string text_of(const fs::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string out{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw ResultsError(file.string() + ": cannot be read: " + std::strerror(errno) + "; check its permissions, or remove it");
+  if (!in) throw ResultsError(file.string() + ": cannot be read (" + std::strerror(errno) + "); check its permissions, or remove it");
   return out;
 }
 
@@ -123,9 +125,11 @@ std::optional<std::size_t> convert_table(const fs::path& csv, const std::string&
 
 ConvertedTables convert_results(const fs::path& directory, const fs::path& file, const ConversionStep& tell) {
   const std::vector<fs::path> tables = files_ending(directory, ".csv"), descriptions = files_ending(directory, ".json");
-  if (tables.empty())
-    throw ResultsError(directory.string() +
-                       ": has no tables (.csv); name a folder of results, which `pintle run` writes with --out FOLDER");
+  if (tables.empty()) {
+    const std::string why = why_without("tables", directory);
+    throw ResultsError(directory.string() + ": has no tables (.csv)" +
+                       (why.empty() ? "; name a folder of results, which `pintle run` writes with --out FOLDER" : ": " + why));
+  }
   std::vector<std::string> names;
   for (const fs::path& table : tables) names.push_back(table.stem().string());
   for (const fs::path& description : descriptions) names.push_back(description.filename().string());

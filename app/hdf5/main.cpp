@@ -9,7 +9,9 @@
 #include "app/mistyped.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/common/file_names.h"
 #include "framework/common/text.h"
+#include "framework/output/results_directory.h"
 #include "framework/report/csv_reader.h"
 #include "framework/report/description.h"
 #include "framework/scene/error.h"
@@ -22,13 +24,14 @@ using namespace pintle::app;
 
 /// @throws SceneError  the command line is wrong   @throws std::runtime_error
 void validate_places(const fs::path& directory, const fs::path& file) {
-  if (file.extension() != ".h5" && file.extension() != ".hdf5")
+  if (ending_of(file) != ".h5" && ending_of(file) != ".hdf5")
     throw SceneError(file.string() + ": an HDF5 file is called NAME.h5 or NAME.hdf5");
   if (!fs::exists(directory)) throw ResultsError(directory.string() + ": there is no such folder; name a folder of results");
   if (!fs::is_directory(directory))
     throw ResultsError(directory.string() + ": is no folder; name the folder of its results, which `pintle run` writes with --out FOLDER");
-  if (fs::exists(file) && !fs::is_regular_file(file))
-    throw std::runtime_error(file.string() + ": is " + (fs::is_directory(file) ? "a folder" : "not an ordinary file") +
+  std::error_code unseen;  // is told where it is written
+  if (fs::exists(file, unseen) && !fs::is_regular_file(file, unseen))
+    throw std::runtime_error(file.string() + ": is " + (fs::is_directory(file, unseen) ? "a folder" : "not an ordinary file") +
                              "; name a file to write");
 }
 
@@ -49,7 +52,10 @@ int convert(const fs::path& directory, const fs::path& file, bool quiet) {
     return stopped;
   }
   if (is_unfinished(directory))
-    std::cerr << "warning: " << directory.string() << ": the run did not finish; the whole rows of its tables are converted\n";
+    std::cerr << "warning: " << directory.string() << ": "
+              << (is_being_filled(directory) ? "the run is still going on; the file holds the rows that are on the disk by now"
+                                             : "the run did not finish; the whole rows of its tables are converted")
+              << "\n";
   if (!quiet)
     std::cout << "  " << file.string() << "  " << done.tables << (done.tables == 1 ? " table, " : " tables, ")
               << number_text(static_cast<double>(fs::file_size(file)) / 1e6, 3) << " MB\n";

@@ -4,17 +4,51 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <string_view>
 
 #include "framework/report/csv_reader.h"
 
 namespace pintle::app {
 
+namespace {
+
+/// Columns of text, though one be empty or hold names such as "12". Of any other column the values tell.
+bool is_text_by_nature(const std::string& table, const std::string& heading) {
+  static const std::map<std::string_view, std::vector<std::string_view>> columns{{"A", {"rate of"}},
+                                                                                 {"B", {"rate of"}},
+                                                                                 {"C", {"output"}},
+                                                                                 {"D", {"output"}},
+                                                                                 {"actions", {"event", "did"}},
+                                                                                 {"contacts", {"contact"}},
+                                                                                 {"events", {"joint"}},
+                                                                                 {"fit", {"phase", "status", "reason"}},
+                                                                                 {"fit-so-far", {"phase", "status", "reason"}},
+                                                                                 {"linearized", {"kind", "moves most"}},
+                                                                                 {"lyapunov", {"direction"}},
+                                                                                 {"orbits", {"direction", "found from", "stability"}},
+                                                                                 {"points", {"point"}},
+                                                                                 {"section", {"direction"}},
+                                                                                 {"sensitivity", {"measure", "parameter"}},
+                                                                                 {"shapes", {"coordinate"}},
+                                                                                 {"statics", {"quantity"}},
+                                                                                 {"sweep", {"status", "reason"}},
+                                                                                 {"sweep-so-far", {"status", "reason"}},
+                                                                                 {"timings", {"process.thread"}},
+                                                                                 {"tradeoff", {"status", "role", "reason"}},
+                                                                                 {"values", {"direction", "status", "reason"}}};
+  const auto found = columns.find(table);
+  return found != columns.end() && std::ranges::find(found->second, heading) != found->second.end();
+}
+
+}  // namespace
+
 std::optional<TableKinds> table_kinds(const std::filesystem::path& file, const RowsRead& tell) {
   constexpr std::size_t often = 4096;
   CsvReader in(file);
   TableKinds out;
-  out.text.resize(in.header().size());
+  for (const std::string& heading : in.header()) out.text.push_back(is_text_by_nature(file.stem().string(), heading));
   for (std::vector<std::string> fields; in.next(fields); ++out.rows) {
     for (std::size_t c = 0; c < fields.size(); ++c)
       if (!out.text[c] && !number_in(fields[c])) out.text[c] = true;

@@ -15,7 +15,7 @@ using RowsRead = std::function<bool(std::size_t)>;
 /// What a first reading of a table finds.
 struct TableKinds {
   std::size_t rows = 0;
-  std::vector<bool> text;  ///< by column: some field is not a number
+  std::vector<bool> text;  ///< by column: by its nature, or some field is not a number
 };
 
 /// Nothing if it was stopped. @throws ResultsError

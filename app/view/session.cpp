@@ -10,6 +10,7 @@
 
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
+#include "framework/common/file_names.h"
 #include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
 
@@ -32,7 +33,7 @@ std::map<fs::path, fs::file_time_type> saved_files(const fs::path& scene) {
   std::error_code ignored;
   for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) {
     constexpr std::array<std::string_view, 7> read{".yaml", ".yml", ".csv", ".geo", ".inp", ".msh", ".json"};
-    if (std::ranges::find(read, entry->path().extension().string()) != read.end()) add(entry->path());
+    if (std::ranges::find(read, ending_of(entry->path())) != read.end()) add(entry->path());
   }
   add(scene);
   return out;

@@ -1,9 +1,9 @@
 #include "framework/bodies/elastic_parts.h"
 
-#include <cctype>
 #include <iomanip>
 #include <sstream>
 
+#include "framework/common/file_names.h"
 #include "framework/common/nearest.h"
 #include "framework/common/some_of.h"
 #include "framework/common/text.h"
@@ -16,11 +16,7 @@ std::string shown(const Eigen::Vector2d& p) {
   return s.str();
 }
 
-std::string kind_of(const std::filesystem::path& file) {
-  std::string kind = file.extension().string();
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return kind;
-}
+std::string kind_of(const std::filesystem::path& file) { return ending_of(file); }
 
 bool is_finished_mesh(const ScenePlate& plate) {
   const auto* file = std::get_if<SceneFile>(&plate.shape);

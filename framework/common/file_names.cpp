@@ -25,6 +25,8 @@ std::string lower(std::string s) {
 
 }  // namespace
 
+std::string ending_of(const std::filesystem::path& file) { return lower(file.extension().string()); }
+
 FileNames::FileNames(std::vector<std::string> taken) {
   for (std::string& name : taken) taken_.push_back(lower(std::move(name)));
 }

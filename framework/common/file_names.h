@@ -1,9 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace pintle {
+
+/// What a file's name ends in, with its dot and in lower case: ".png" of "Frame.PNG".
+std::string ending_of(const std::filesystem::path&);
 
 /// File names for elements with arbitrary names. Anything except ASCII letters, digits, `.`, `-` and `_` becomes `_`, long names are
 /// shortened, and a number is added where two would be equal apart from case.

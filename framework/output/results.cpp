@@ -186,10 +186,9 @@ std::string check_json(const Scene& scene, const Model& model, const Assembly& a
 }
 
 void write_results(const fs::path& directory, const Scene& scene, const Model& model, const Assembly& assembly, const Run& run) {
-  RunFiles files(directory, model);
-  files.add(run.trajectory, run.ledger, run.impacts);
-  files.finish(run.impacts);
-  write_actions(directory, scene, run);
+  RunFiles files(directory, scene, model);
+  files.add(run.trajectory, run.ledger, run.impacts, run.happenings);
+  files.finish(run.impacts, run.happenings);
   write_text(directory / "run.json", run_json(scene, model, assembly, run));
 }
 

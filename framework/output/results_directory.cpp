@@ -1,10 +1,13 @@
 #include "framework/output/results_directory.h"
 
+#include <fcntl.h>
 #include <limits.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
@@ -43,6 +46,14 @@ void require_short_names(const fs::path& directory) {
 }
 
 }  // namespace
+
+bool is_being_filled(const fs::path& folder) {
+  const int open = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (open < 0) return false;
+  const bool locked = ::flock(open, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(open);
+  return locked;
+}
 
 fs::path nearest_that_exists(const fs::path& directory) {
   fs::path at = directory.parent_path();
@@ -86,6 +97,43 @@ std::optional<double> time_of_last_row(const fs::path& folder) {
   return error == std::errc() && *stop == ',' ? std::optional(t) : std::nullopt;
 }
 
+namespace {
+
+/// Whether run.json says how a run ended. It says so in its first lines.
+bool has_ended(const fs::path& folder) {
+  std::ifstream in(folder / "run.json", std::ios::binary);
+  std::error_code error;
+  if (!in) return fs::exists(folder / "run.json", error);  // it cannot be read: nothing is known
+  std::string head(4096, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return in.gcount() > 0 && head.find("\"status\": \"unfinished\"") == std::string::npos;
+}
+
+}  // namespace
+
+std::string why_without(const std::string& lacking, const fs::path& folder) {
+  constexpr std::array<std::array<const char*, 2>, 8> others{{{"sensitivity.json", "a sensitivity study"},
+                                                              {"sweep.json", "a sweep"},
+                                                              {"fit.json", "a fit"},
+                                                              {"nonlinear.json", "a nonlinear study"},
+                                                              {"tradeoff.json", "a trade-off"},
+                                                              {"linearized.json", "a linearization"},
+                                                              {"modes.json", "the modes of a body"},
+                                                              {"static.json", "the statics of a body"}}};
+  if (is_being_filled(folder)) return "its run is still going on and has written no " + lacking + " yet; wait for them";
+  std::error_code error;
+  for (const auto& [file, what] : others)
+    if (fs::exists(folder / file, error))
+      return std::string("it holds ") + what + ", which has no " + lacking + "; name the folder of a run";
+  if (fs::exists(folder / "journal-0.txt", error))
+    return "it holds a study that has not ended; give its command again with the same --out, and it continues from there";
+  const bool begun = folder.filename().string().find(".part-") != std::string::npos || fs::exists(folder / "trajectory.csv", error);
+  const bool hidden = ::access((folder / "trajectory.csv").c_str(), R_OK) != 0 && errno == EACCES;
+  if (begun && !hidden && !has_ended(folder) && !time_of_last_row(folder))
+    return "its run was killed before it wrote any " + lacking + "; run its scene again";
+  return "";
+}
+
 void require_writable(const fs::path& directory) {
   const fs::path final = without_slash(directory);
   require_new(final);
@@ -110,9 +158,12 @@ ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_s
     throw;
   }
   ::mkdir(frames_.c_str(), 0777);
+  lock_ = ::open(staging_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);  // an aid to others: what fails here may fail
 }
 
 ResultsDirectory::~ResultsDirectory() {
+  if (lock_ >= 0) ::close(lock_);
   if (committed_) return;
   ::rmdir(frames_.c_str());  // only if empty, without allocating memory
   ::rmdir(staging_.c_str());

@@ -22,8 +22,12 @@ class ResultsDirectory {
 
  private:
   std::filesystem::path final_, staging_, frames_;
+  int lock_ = -1;  ///< held on the staging folder: a killed program lets it go
   bool committed_ = false;
 };
+
+/// Whether a program that still runs fills this folder. False where the file system cannot lock.
+bool is_being_filled(const std::filesystem::path& folder);
 
 /// The path without a slash at its end.
 std::filesystem::path without_slash(const std::filesystem::path&);
@@ -33,6 +37,11 @@ std::vector<std::filesystem::path> leftovers(const std::filesystem::path& direct
 
 /// The time of the last complete row of its trajectory.csv: how far a killed run had come, to about a second of its work.
 std::optional<double> time_of_last_row(const std::filesystem::path& folder);
+
+/// What a folder without what a command needs holds, and what can be done: "its run was killed …; run its scene again". Empty if it is a
+/// finished run, or nothing that is known.
+/// @param lacking  "rows", "frames"
+std::string why_without(const std::string& lacking, const std::filesystem::path& folder);
 
 /// The folder in which it will be created, or the nearest existing one above.
 std::filesystem::path nearest_that_exists(const std::filesystem::path& directory);

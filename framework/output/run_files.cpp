@@ -30,7 +30,7 @@ bool with_pressures(const System& system) {
 
 }  // namespace
 
-RunFiles::RunFiles(const fs::path& directory, const Model& model)
+RunFiles::RunFiles(const fs::path& directory, const Scene& scene, const Model& model)
     : system_(model.system),
       trajectory_(directory / "trajectory.csv"),
       ledger_(directory / "ledger.csv"),
@@ -39,6 +39,7 @@ RunFiles::RunFiles(const fs::path& directory, const Model& model)
   ledger_.append(csv_heading(ledger_table(system_)));
   events_.append(std::string(event_columns) + (with_impulses(system_) ? ",impulse [N s]" : "") +
                  (with_pressures(system_) ? ",peak pressure [Pa],half angle [rad]\n" : "\n"));
+  if (!scene.events.empty()) actions_.emplace(directory / "actions.csv").append("event,t [s],did\n");
 }
 
 void RunFiles::add_rows(const Table& table, FileWriter& file) {
@@ -67,27 +68,39 @@ void RunFiles::add_impact(const Impact& i) {
   ++impacts_;
 }
 
-void RunFiles::add(const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts) {
+void RunFiles::add_actions(const std::vector<Happening>& all) {
+  for (; did_ < all.size(); ++did_) {
+    row_ = csv_field(all[did_].event) + ',';
+    append_number(row_, all[did_].t);
+    actions_->append(row_ + ',' + csv_field(all[did_].did) + '\n');
+  }
+}
+
+void RunFiles::add(const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts,
+                   const std::vector<Happening>& happenings) {
   add_rows(trajectory, trajectory_);
   add_rows(ledger, ledger_);
   while (impacts_ < impacts.size() && !std::isnan(impacts[impacts_].end)) add_impact(impacts[impacts_]);
-  flush_impacts();
+  if (actions_) add_actions(happenings);
+  flush_events();
 }
 
-// A writer looks at the clock when a record comes, and after a burst of impacts none may come for long.
-void RunFiles::flush_impacts() {
+// A writer looks at the clock when a record comes, and after a burst of impacts or actions none may come for long.
+void RunFiles::flush_events() {
   using std::chrono::steady_clock;
-  if (on_disk_ == impacts_ || steady_clock::now() - flushed_ < std::chrono::seconds(1)) return;
+  if (on_disk_ == impacts_ + did_ || steady_clock::now() - flushed_ < std::chrono::seconds(1)) return;
   events_.flush();
-  on_disk_ = impacts_;
+  if (actions_) actions_->flush();
+  on_disk_ = impacts_ + did_;
   flushed_ = steady_clock::now();
 }
 
 void RunFiles::flush() {
   for (FileWriter* file : {&trajectory_, &ledger_, &events_}) file->flush();
+  if (actions_) actions_->flush();
 }
 
-void RunFiles::finish(const std::vector<Impact>& impacts) {
+void RunFiles::finish(const std::vector<Impact>& impacts, const std::vector<Happening>& happenings) {
   std::exception_ptr trouble;
   const auto attempt = [&](auto act) {
     try {
@@ -102,33 +115,24 @@ void RunFiles::finish(const std::vector<Impact>& impacts) {
     while (impacts_ < impacts.size()) add_impact(impacts[impacts_]);
     events_.close();
   });
+  if (actions_) attempt([&] { add_actions(happenings), actions_->close(); });
   if (trouble) std::rethrow_exception(trouble);
 }
 
-void write_actions(const fs::path& directory, const Scene& scene, const Run& run) {
-  if (scene.events.empty()) return;
-  std::string rows = "event,t [s],did\n";
-  for (const Happening& h : run.happenings) {
-    rows += csv_field(h.event) + ',';
-    append_number(rows, h.t);
-    rows += ',' + csv_field(h.did) + '\n';
-  }
-  write_text(directory / "actions.csv", rows);
-}
-
-ReservedRoom::ReservedRoom(fs::path file, std::size_t bytes) : file_(std::move(file)) {
-  const int made = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (made < 0) throw FileError(file_, errno);
-  const int error = ::posix_fallocate(made, 0, static_cast<off_t>(bytes));
-  ::close(made);
+ReservedRoom::ReservedRoom(const fs::path& file, std::size_t bytes) {
+  const fs::path beside = unique_neighbour(file);
+  open_ = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (open_ < 0) throw FileError(file, errno);
+  ::unlink(beside.c_str());
+  const int error = ::posix_fallocate(open_, 0, static_cast<off_t>(bytes));
   if (error != ENOSPC && error != EDQUOT && error != EFBIG) return;  // otherwise the file system does not support it, or it succeeded
-  ::unlink(file_.c_str());
-  throw FileError(file_, error);
+  release();
+  throw FileError(file, error);
 }
 
 void ReservedRoom::release() {
-  if (!file_.empty()) ::unlink(file_.c_str());
-  file_.clear();
+  if (open_ >= 0) ::close(open_);
+  open_ = -1;
 }
 
 }  // namespace pintle

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/analysis/simulate/simulate.h"
@@ -11,44 +13,43 @@
 
 namespace pintle {
 
-/// trajectory.csv, ledger.csv and events.csv of a run, written during the run.
+/// trajectory.csv, ledger.csv, events.csv and, for a scene with events, actions.csv of a run, written during the run.
 class RunFiles {
  public:
   /// @throws FileError
-  RunFiles(const std::filesystem::path& directory, const Model&);
-  /// Adds all rows of the tables, and the impacts that have ended since. @throws FileError
-  void add(const Table& trajectory, const Table& ledger, const std::vector<Impact>&);
+  RunFiles(const std::filesystem::path& directory, const Scene&, const Model&);
+  /// Adds all rows of the tables, the impacts that have ended since, and what events did. @throws FileError
+  void add(const Table& trajectory, const Table& ledger, const std::vector<Impact>&, const std::vector<Happening>&);
   /// Writes buffers to disk. @throws FileError
   void flush();
-  /// Writes the impacts still going on and the buffers. @throws FileError  the first of the three; all are closed
-  void finish(const std::vector<Impact>&);
+  /// Writes the impacts still going on and the buffers. @throws FileError  the first of them; all are closed
+  void finish(const std::vector<Impact>&, const std::vector<Happening>&);
 
  private:
   void add_rows(const Table&, FileWriter&);
   void add_impact(const Impact&);
-  void flush_impacts();
+  void add_actions(const std::vector<Happening>&);
+  void flush_events();
 
   const System& system_;
   FileWriter trajectory_, ledger_, events_;
-  std::size_t impacts_ = 0, on_disk_ = 0;  ///< number written; of these, flushed
+  std::optional<FileWriter> actions_;
+  std::size_t impacts_ = 0, did_ = 0, on_disk_ = 0;  ///< number written; of both together, flushed
   std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
   std::string row_;
 };
 
-/// actions.csv: the actions of the events of a scene, one row each; not written for a scene without events. @throws FileError
-void write_actions(const std::filesystem::path& directory, const Scene&, const Run&);
-
-/// Disk space reserved for later, as a file that is deleted when the space is needed.
+/// Disk space reserved for a file, as an open file without a name: a killed program leaves nothing of it.
 class ReservedRoom {
  public:
-  /// @throws FileError  there is not enough space
-  ReservedRoom(std::filesystem::path file, std::size_t bytes);
+  /// @param file  for which it is kept, and beside which it is   @throws FileError  there is not enough space
+  ReservedRoom(const std::filesystem::path& file, std::size_t bytes);
   ~ReservedRoom() { release(); }
   ReservedRoom(const ReservedRoom&) = delete;
   void release();
 
  private:
-  std::filesystem::path file_;
+  int open_ = -1;
 };
 
 }  // namespace pintle

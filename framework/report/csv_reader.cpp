@@ -41,8 +41,8 @@ std::ifstream opened(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in || in.peek() == std::char_traits<char>::eof())
-    throw ResultsError(file.string() + ": cannot be read: " + (errno ? std::strerror(errno) : "it is empty") +
-                       "; run the scene again, or name another results folder");
+    throw ResultsError(file.string() + ": cannot be read" + (errno ? std::string(" (") + std::strerror(errno) + ")" : ": it is empty") +
+                       (errno == EACCES ? "; check its permissions" : "; run the scene again, or name another results folder"));
   return in;
 }
 
@@ -50,7 +50,12 @@ std::ifstream opened(const std::filesystem::path& file) {
 
 CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), in_(opened(file_)) {
   read_record();
+  if (record_.starts_with("\xef\xbb\xbf")) record_.erase(0, 3);  // byte-order mark
   split_record(record_, header_);
+  for (const char* const other : {";", "\t"})
+    if (header_.size() == 1 && header_[0].find(other) != std::string::npos)
+      throw ResultsError(file_.string() + ":1: its columns are separated by " + (*other == ';' ? "semicolons" : "tabs") +
+                         ", but results by commas; write it with commas");
 }
 
 bool CsvReader::read_record() {

@@ -1,5 +1,7 @@
 #include "framework/report/description.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "framework/report/csv_reader.h"
@@ -24,6 +26,9 @@ std::string cut(const std::string& text, std::size_t most) {
 std::optional<Description> description(const std::filesystem::path& directory, const std::string& question) {
   const std::filesystem::path file = directory / (question + ".json");
   std::ifstream in(file, std::ios::binary);
+  const int error = errno;
+  if (!in && (error == EACCES || error == EPERM))
+    throw ResultsError(file.string() + ": cannot be read (" + std::strerror(error) + "); check its permissions");
   if (!in) return {};
   try {
     Description out{question, file, nlohmann::ordered_json::parse(in)};

@@ -94,6 +94,10 @@ std::string table_page_of(const TableKind& kind, const Description& results, con
 
 }  // namespace
 
+bool has_table_page(const fs::path& directory) {
+  return std::ranges::any_of(kinds, [&](const TableKind& kind) { return fs::exists(directory / (std::string(kind.name) + ".json")); });
+}
+
 std::optional<std::string> table_page(const fs::path& directory, std::size_t most_rows, std::size_t most_text) {
   for (const TableKind& kind : kinds)
     if (const auto results = description(directory, kind.name))

@@ -7,6 +7,9 @@
 
 namespace pintle {
 
+/// Whether the folder has such a table.
+bool has_table_page(const std::filesystem::path& directory);
+
 /// The table of a `sweep`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder has none.
 /// @param most_rows  for a longer table, evenly spaced rows are kept, and those in which a column is least or greatest
 /// @throws ResultsError

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/common/file_names.h"
 #include "framework/scene/text_file.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
@@ -121,6 +122,14 @@ void require_measures(const StudyFile& file) {
   if (file.study.measures.empty()) file.root().fail("lacks a required key; add for example measure: {peak: peak force at crank pin}");
 }
 
+void require_other_name(const std::string& name, const std::vector<std::string>& columns, const std::string& file, const Place& place) {
+  if (std::ranges::find(columns, name) != columns.end()) throw SceneError(file, place, "\"" + name + "\" " + taken_name);
+}
+
+void require_other_names(const std::vector<Measure>& measures, const std::vector<std::string>& columns) {
+  for (const Measure& m : measures) require_other_name(m.name, columns, m.file, m.place);
+}
+
 std::vector<Measure> read_curves(const StudyFile& file) {
   std::vector<Measure> out;
   if (!file.root().has("keep")) return out;
@@ -170,7 +179,7 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
   const Node scene = root.at("scene");
   const std::filesystem::path scene_path = path.parent_path() / scene.text("the scene's file, beside the study");
   // A user's study may name a scene anywhere, but no other file: errors show its content.
-  const std::string kind = scene_path.extension().string();
+  const std::string kind = ending_of(scene_path);
   if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is not a scene; name a .yaml, .yml or .json file");
   if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; its path is relative to the study");
   file.study.scene = read_case_source(scene_path, root.has("set") ? read_set(root.at("set")) : Overrides{});

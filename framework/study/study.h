@@ -42,6 +42,12 @@ void each_entry(const Node& node, const char* remedy, F f) {
 
 /// @throws SceneError  it measures nothing, which is allowed only in a study with a goal
 void require_measures(const StudyFile&);
+/// What is said of such a name.
+inline constexpr const char* taken_name = "is the name of another column of the study's table; choose another name";
+/// @param columns  of the study's table, without their units
+/// @throws SceneError  at this place of the study: what is called like one of them would be a second column of that name
+void require_other_name(const std::string& name, const std::vector<std::string>& columns, const std::string& file, const Place&);
+void require_other_names(const std::vector<Measure>&, const std::vector<std::string>& columns);
 /// `keep`: quantities for which each case writes a curve. @throws SceneError  the scene has no such quantity
 std::vector<Measure> read_curves(const StudyFile&);
 

@@ -36,6 +36,15 @@ events: {"first row": {when: rod.angle < -1 deg, do: {row: true}}}
 run: {until: 0.3 s}
 output: {every: 0.1 ms}
 """
+pendulum = """
+gravity: [0, -9.81]
+parameters: {m1: 1 kg}
+bodies: {rod: {rigid: {mass: m1, inertia: 0.1}, points: {O: [-1, 0]}}}
+joints: {hinge: {revolute: [ground, rod.O]}}
+start: {rod: {angle: -80 deg}}
+events: {far: {when: rod.angle < -81 deg, do: {row: true}}}
+run: {until: 0.1 s}
+"""
 
 
 def table_of(file):
@@ -91,7 +100,7 @@ class Hdf5(unittest.TestCase):
                 name, _, unit = heading.removesuffix("]").rpartition(" [") if heading.endswith("]") else (heading, "", "")
                 self.assertEqual((link, data.attrs["unit"]), (name.replace("/", "_"), unit))
                 numbers = [number(field) for field in column]
-                if None in numbers:
+                if None in numbers or heading in ("joint", "event", "did"):
                     self.assertEqual([x.decode() for x in data[:]], list(column))
                 else:
                     self.assertEqual(data.dtype, numpy.float64)
@@ -165,6 +174,80 @@ class Hdf5(unittest.TestCase):
         with h5py.File(self.place / "killed.h5", "r") as file:
             self.assertGreater(len(file["trajectory/t"]), 900)
             self.equals_its_tables(file, left)
+
+    def killed(self, text):
+        """The folder of a run of this scene, still running; it is killed when the test ends."""
+        (self.place / "scene.yaml").write_text(text)
+        process = subprocess.Popen([pintle, "run", "scene.yaml", "--out", "out", "--quiet"], cwd=self.place)
+        self.addCleanup(lambda: (process.kill(), process.wait()))
+        while process.poll() is None:
+            found = list(self.place.glob("out.part-*/trajectory.csv"))
+            if found and found[0].read_bytes().count(b"\n") > 100:
+                break
+            time.sleep(0.002)
+        return process, next(self.place.glob("out.part-*"))
+
+    def test_a_run_that_goes_on_is_told_from_a_killed_one(self):
+        process, folder = self.killed(scene.replace("until: 0.3 s", "until: 900 s, max steps: 2000000000"))
+        done = self.say("hdf5", folder, "now.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{folder}: the run is still going on; the file holds the rows that are on the disk by now", done.stderr)
+        with h5py.File(self.place / "now.h5", "r") as file:
+            self.assertEqual({k for k in file if isinstance(file[k], h5py.Dataset)}, {"run.json"})  # nothing else ends in .json
+        process.kill(), process.wait()
+        self.assertIn(f"{folder}: the run did not finish;", self.say("hdf5", folder, "then.h5").stderr)
+
+    def test_columns_of_text_are_text_without_rows_too(self):
+        (self.place / "s.yaml").write_text(pendulum)
+        many = "scene: s.yaml\nmeasure: {turn: final angle of rod}\n"
+        (self.place / "sweep.yaml").write_text(many + "sweep: {grid: {m1: [1 kg, -1 kg]}}\n")
+        (self.place / "fit.yaml").write_text(many + "vary: {m1: {from: 1 kg, to: 2 kg}}\ngoal: {minimise: turn}\nfit: {evaluations: 8}\n")
+        (self.place / "scatter.yaml").write_text(many + "sensitivity: {parameters: {m1: {uniform: 1 g}}}\n")
+        (self.place / "trade.yaml").write_text(many + "tradeoff: {error: 1%, repeats: 1, axes: {finer: {run.tolerance: [1e-4, 1e-6, 1e-8]}}}\n")
+        (self.place / "orbit.yaml").write_text("scene: s.yaml\nover: {m1: [1 kg, 2 kg]}\ndirection: both\n"
+                                               "section: {every: 10 ms, record: {a: rod.angle}, transient: 0, returns: 3}\n")
+        varied, seen = {("tradeoff", "finer")}, set()
+        for command, file in (("run", "s.yaml"), ("statics", "s.yaml"), ("linearize", "s.yaml"), ("sweep", "sweep.yaml"), ("fit", "fit.yaml"),
+                              ("sensitivity", "scatter.yaml"), ("tradeoff", "trade.yaml"), ("nonlinear", "orbit.yaml")):
+            done = self.say(command, file, "--out", command, "-q")
+            self.assertIn(done.returncode, (0, 4), done.stderr)
+            whole = self.place / command
+            kinds = []
+            for folder in (whole, self.folder({t.name: t.read_text().partition("\n")[0] + "\n" for t in whole.glob("*.csv")}, command + "-bare")):
+                self.assertEqual(self.say("hdf5", folder, "all.h5").returncode, 0)
+                with h5py.File(self.place / "all.h5", "r") as h5:
+                    kinds.append({(t, c): h5[t][c].dtype for t in h5 if isinstance(h5[t], h5py.Group) for c in h5[t]})
+            for column in kinds[0].keys() - varied:
+                self.assertEqual(kinds[0][column], kinds[1][column], (command, column))
+                seen |= {column} if kinds[0][column] != numpy.float64 else set()
+        for column in (("events", "joint"), ("actions", "did"), ("sweep", "reason"), ("timings", "process.thread"), ("values", "reason"),
+                       ("statics", "quantity")):
+            self.assertIn(column, seen)
+        points = self.converted(self.folder({"points.csv": "point,x [m]\n12,0.5\n013,1\n"}, "points"))
+        self.assertEqual([p.decode() for p in points["points/point"][:]], ["12", "013"])
+
+    def test_a_table_of_another_program(self):
+        file = self.converted(self.folder({"T.CSV": "\ufefft [s],x\n0,1\n", "u.csv": "a\n1\n"}))
+        self.assertEqual(list(file["T"].attrs["columns"]), ["t", "x"])
+        for text, what in (("t [s];x\n0;1\n", "semicolons"), ("t [s]\tx\n0\t1\n", "tabs")):
+            done = self.say("hdf5", self.folder({"t.csv": text}, what))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"{what}/t.csv:1: its columns are separated by {what}, but results by commas; write it with commas", done.stderr)
+
+    def test_a_folder_and_a_file_of_any_name(self):
+        self.folder({"t.csv": "t [s]\n1\n"}, "-x")
+        for words in (("--", "-x"), ("-q", "--", "-x", "-y.H5"), ("--out", "z.HDF5", "--", "-x")):
+            done = self.say("hdf5", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(all((self.place / file).exists() for file in ("-x/results.h5", "-y.H5", "z.HDF5")))
+
+    def test_what_a_folder_without_tables_holds_is_told(self):
+        self.folder({"journal-0.txt": "", "study.yaml": "", "scene.yaml": ""}, "study")
+        self.assertIn("study: has no tables (.csv): it holds a study that has not ended; give its command again with the same --out",
+                      self.say("hdf5", "study").stderr)
+        self.folder({}, "out.part-abcdef")
+        self.assertIn("out.part-abcdef: has no tables (.csv): its run was killed before it wrote any tables; run its scene again",
+                      self.say("hdf5", "out.part-abcdef").stderr)
 
     def test_what_cannot_be_read_is_named(self):
         cut = self.folder({"t.csv": "t [s],x\n0,1\n1,2"})

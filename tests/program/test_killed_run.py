@@ -29,6 +29,16 @@ joints: {pin: {revolute: [ground, ball.O], clearance: {radial: 1 mm, bearing rad
 run: {until: 20000 s, method: dopri5, tolerance: 1e-6}
 output: {every: 1 s}
 """
+# Actions in the first second, then none.
+swings = """
+gravity: [0, -9.81]
+bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [-1, 0]}}}
+joints: {hinge: {revolute: [ground, rod.O]}}
+start: {rod: {angle: 0 deg}}
+events: {first down: {when: rod.angle < -1 deg, do: {row: true}}, far: {when: rod.angle < -60 deg, do: {row: true}}}
+run: {until: 1e7 s, method: dopri5, tolerance: 1e-9, max steps: 2000000000}
+output: {every: 1 s}
+"""
 
 
 def pieces(folder):
@@ -64,19 +74,39 @@ class KilledRun(unittest.TestCase):
         subprocess.run([pintle, "run", "scene.yaml", "--set", f"run.until={until!r}", "--out", out.name, "--quiet"], cwd=self.place, check=True)
         return pieces(out)
 
-    def test_impacts_reach_the_disk_though_none_follows(self):
-        (self.place / "scene.yaml").write_text(burst)
+    def left_with(self, table, text):
+        """The folder of a run that is killed once this table has a row."""
+        (self.place / "scene.yaml").write_text(text)
         process = subprocess.Popen([pintle, "run", "scene.yaml", "--out", "out", "--quiet"], cwd=self.place)
         rows, end = 0, time.monotonic() + 60  # seconds; one is enough where anything runs at all
         try:
             while rows == 0 and process.poll() is None and time.monotonic() < end:
                 time.sleep(0.05)
-                for file in self.place.glob("out.part-*/events.csv"):
+                for file in self.place.glob(f"out.part-*/{table}"):
                     rows = file.read_bytes().count(b"\n") - 1
         finally:
             process.send_signal(signal.SIGKILL)
         self.assertEqual(process.wait(), -signal.SIGKILL)
         self.assertGreater(rows, 0)
+        (left,) = self.place.glob("out.part-*")
+        return left
+
+    def test_impacts_reach_the_disk_though_none_follows(self):
+        self.left_with("events.csv", burst)
+
+    def test_actions_reach_the_disk_as_a_whole_run_writes_them(self):
+        left = self.left_with("actions.csv", swings)
+        killed = (left / "actions.csv").read_bytes()
+        subprocess.run([pintle, "run", "scene.yaml", "--set", "run.until=20 s", "--out", "whole", "--quiet"], cwd=self.place, check=True)
+        whole = (self.place / "whole" / "actions.csv").read_bytes()
+        self.assertTrue(killed.startswith(b"event,t [s],did\nfirst down,"), killed)
+        self.assertTrue(killed.endswith(b"\n"))
+        first = killed.splitlines()[:10]
+        self.assertEqual(whole.splitlines()[: len(first)], first)
+
+    def test_it_leaves_what_a_run_writes_and_no_more(self):
+        names = {n for n in pieces(self.killed(1)) if "/" not in n}
+        self.assertEqual(names, {"trajectory.csv", "ledger.csv", "events.csv", "run.json"})
 
     def test_ten_times(self):
         left, furthest = [], 0

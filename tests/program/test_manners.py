@@ -50,6 +50,39 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.say("run", "--help").returncode, 0)
         self.assertEqual(self.say().returncode, 2)
 
+    def test_hdf5_is_an_option_of_run_alone(self):
+        for words in (("sweep", "study.yaml", "--hdf5"), ("inverse", "swing.pintle.yaml", "--hdf5"), ("report", "--hdf5", "out")):
+            done = self.say(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{words[0]} has no option --hdf5; `pintle hdf5 DIR` turns the tables of a folder of results into HDF5", done.stderr)
+
+    def test_a_path_without_its_group(self):
+        worn = pendulum.replace("rod.O]", "rod.O], clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: ground, "
+                                "normal: {hunt-crossley: {stiffness: 1e9, restitution: 0.7}}}").replace("hinge", "worn pin")
+        (self.place / "worn.yaml").write_text(worn)
+        radial = '"joints.worn pin.clearance.radial"'
+        for path, meant in (("worn pin.clearance.radial", radial), ("clearance.radial", radial),
+                            ("rod.rigid.mass", '"bodies.rod.rigid.mass"'), ("worn pin.stop", '"joints.worn pin.stop"'), ("jiont.a", '"joints"')):
+            done = self.say("run", "worn.yaml", "--set", path + "=2 mm")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f'--set {path}: a scene has no key "{path.partition(".")[0]}". Did you mean {meant}?', done.stderr)
+
+    def test_endings_in_any_case(self):
+        self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q", "--set", "output.frames=2").returncode, 0)
+        made = [("report", "out", "--out", "a.HTML"), ("plot", "out", "rod.angle", "--out", "a.Svg")]
+        if (Path(pintle).parent / "pintle-picture").exists():
+            made.append(("picture", "out", "a.PNG"))
+        if (Path(pintle).parent / "pintle-fmu").exists():
+            made.append(("fmu", "swing.pintle.yaml", "--out", "a.FMU"))
+        for words in made:
+            done = self.say(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("  " + words[-1], done.stdout)  # each says what it wrote
+            self.assertTrue((self.place / words[-1]).exists())
+        (self.place / "swing.pintle.yaml").rename(self.place / "Swing.YAML")
+        (self.place / "study.yaml").write_text("scene: Swing.YAML\nmeasure: {x: final x of rod}\nsweep: {grid: {run.tolerance: [1e-6]}}\n")
+        self.assertEqual(self.say("sweep", "study.yaml", "--out", "swept", "-q").returncode, 0)
+
     def test_every_example_that_runs_can_be_checked(self):
         for scene in sorted(examples.glob("*.yaml")):
             if re.search("^run:", scene.read_text(), re.MULTILINE):
@@ -104,6 +137,32 @@ class Manners(unittest.TestCase):
         (self.place / "study.yaml").write_text("title: many\nscene: swing.pintle.yaml\nmeasure: {e: final x of rod}\n")
         for command in ("run", "check", "statics"):
             self.assertRegex(self.say(command, "study.yaml").stderr, "study.yaml: is a study, not a scene: .*sweep")
+
+    def test_no_two_columns_of_a_study_have_one_name(self):
+        (self.place / "swing.pintle.yaml").write_text(pendulum.replace("mass: 1 kg", "mass: m1") + "parameters: {m1: 1 kg, steps: 1}\n")
+        sweep, fit = "sweep: {grid: {m1: [1 kg, 2 kg]}}\n", "vary: {m1: {from: 1 kg, to: 2 kg}}\ngoal: {minimise: far}\n"
+        scatter, trade = "sensitivity: {parameters: {m1: {uniform: 1 g}}}\n", "tradeoff: {error: 1%, axes: {finer: {run.tolerance: [1e-4, 1e-6]}}}\n"
+        orbits = "section: {every: 10 ms, record: {NAME: rod.angle}, transient: 0, returns: 3}\n"
+        measure = "measure: {far: final x of rod, NAME: final angle of rod}\n"
+        for command, section, taken, free in (("sweep", measure + sweep, ("t_end", "status", "case", "m1", "unexplained share"), "phase"),
+                                              ("fit", measure + fit, ("phase", "goal", "reason", "m1"), "t_end"),
+                                              ("sensitivity", measure + scatter, ("steps", "impacts", "m1"), "goal"),
+                                              ("tradeoff", measure + trade, ("time", "setting", "finer", "error of far"), "m1"),
+                                              ("nonlinear", orbits, ("t", "return", "period"), "case"),
+                                              ("nonlinear", "over: {m1: [1 kg, 2 kg]}\n" + orbits, ("m1",), "steps")):
+            for name in taken + (free,):
+                (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\n" + section.replace("NAME", name))
+                done = self.say(command, "study.yaml", "--out", "out-" + command + name.replace(" ", "") + str(len(section)), "-q")
+                with self.subTest(command + " " + name):
+                    if name == free:
+                        self.assertNotIn("another column", done.stderr)
+                        continue
+                    self.assertEqual(done.returncode, 2, done.stderr)
+                    said = f'"{name}" is the name of another column of the study\'s table; choose'
+                    self.assertRegex(done.stderr, "study.yaml:[23]: .*" + re.escape(said))
+        for command, section in (("sweep", "sweep: {grid: {steps: [1, 2]}}\n"), ("tradeoff", trade.replace("finer", "time"))):
+            (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\nmeasure: {far: final x of rod}\n" + section)
+            self.assertRegex(self.say(command, "study.yaml", "--out", "none").stderr, 'study.yaml:3: .*"(steps|time)" is the name of another column')
 
     def test_one_body_is_not_compared_with_itself(self):
         heavy = pendulum.replace("mass: 1 kg", "mass: 1e300 kg")

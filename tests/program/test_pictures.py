@@ -91,6 +91,13 @@ class Pictures(unittest.TestCase):
             self.assertEqual(f"--time {time}: the frames of out are from 0 to 0.001 s" in done.stderr, told, done.stderr)
 
     @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_it_says_what_it_wrote(self):
+        self.run_of(pushed.format(x=1, y=1), "run")
+        done = self.say("picture", "run", "a.png", "--size", "700x400")
+        self.assertEqual((done.returncode, done.stdout), (0, "  a.png  700 x 400\n"), done.stderr)
+        self.assertEqual(self.say("picture", "run", "a.png", "-q").stdout, "")
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
     def test_arrows_end_inside(self):
         for k in range(8):
             angle = math.pi * k / 4

@@ -195,7 +195,7 @@ TEST(Page, ResultsThatAreMissingOrOfAnotherSceneAreRefused) {
   folder.write("trajectory.csv", "t [s],rod.x [m]\n0,1\n");
   refused({"trajectory.csv:1: has no column \"rod.y\""});
   fs::remove(folder.path() / "trajectory.csv");
-  refused({"trajectory.csv: cannot be read: No such file"});
+  refused({"trajectory.csv: cannot be read (No such file"});
   folder.write("trajectory.csv", table);
   fs::remove(folder.path() / "ledger.csv");
   refused({"ledger.csv: cannot be read"});

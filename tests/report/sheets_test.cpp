@@ -125,7 +125,7 @@ TEST(Sheets, ADamagedTableIsRefusedByFileAndLine) {
   refused("t [s],x [m]\n0,1\n1,2", {"bad.csv:3: the line is cut off"});
   refused("t [s],\"x [m]\n0,1\n", {"bad.csv:1: a quotation mark is not closed"});
   refused("", {"bad.csv: cannot be read: it is empty"});
-  expect_refused<ResultsError>([&] { reduced_by_row(folder.path() / "none.csv", 10); }, {"none.csv: cannot be read: No such file"});
+  expect_refused<ResultsError>([&] { reduced_by_row(folder.path() / "none.csv", 10); }, {"none.csv: cannot be read (No such file"});
 }
 
 /// A plate of squares, side n + 1 nodes of them, drawn by what FlexibleDrawing gives of it.

@@ -130,11 +130,12 @@ TEST(CylinderContact, SaysHowHardItPresses) {
 
 TEST(CylinderContact, WritesThePressureOfEveryStay) {
   const auto events = [](const std::string& normal) {
-    const Whole w = run(flying(normal));
+    const Scene scene = flying(normal);
+    const Whole w = run(scene);
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "pintle_pressure_test";
     std::filesystem::create_directories(folder);
-    RunFiles files(folder, w.model);
-    files.finish(w.run.impacts);
+    RunFiles files(folder, scene, w.model);
+    files.finish(w.run.impacts, {});
     std::ifstream in(folder / "events.csv");
     std::string heading, row;
     std::getline(in, heading), std::getline(in, row);

@@ -49,8 +49,8 @@ struct Run {
 struct Listeners {
   std::function<bool(double t)> progress;                     ///< false stops the run
   std::function<void(const State&, const Equations&)> frame;  ///< at each animation frame
-  /// Takes the new rows of both tables, which are then cleared, and all impacts so far.
-  std::function<void(const Table& trajectory, const Table& ledger, const std::vector<Impact>&)> rows;
+  /// Takes the new rows of both tables, which are then cleared, and all impacts and happenings so far.
+  std::function<void(const Table& trajectory, const Table& ledger, const std::vector<Impact>&, const std::vector<Happening>&)> rows;
   std::function<void(const SavedState&)> state;  ///< at the end of the first step past each `output.states`, and of the last step
 };
 

@@ -260,7 +260,7 @@ void Simulation::add_row(const State& state) {
   last_row_ = state.t;
   if (!listeners_.rows) return;
   listen([&] {
-    listeners_.rows(run_.trajectory, run_.ledger, integrator_.impacts());
+    listeners_.rows(run_.trajectory, run_.ledger, integrator_.impacts(), integrator_.happenings());
     run_.trajectory.data.clear(), run_.ledger.data.clear();
   });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
 #include "framework/common/nearest.h"
 #include "framework/scene/yaml/keys.h"
@@ -80,6 +81,36 @@ std::optional<std::size_t> whole(const std::string& s) {
   return static_cast<std::size_t>(std::stoul(s));
 }
 
+/// Whether these steps lead on from an entry.
+bool leads_on(const Yaml& entry, std::span<const std::string> steps) {
+  if (steps.empty()) return true;
+  const auto next = std::ranges::find(entry.items, steps[0], &Yaml::key);
+  return entry.kind == Yaml::Kind::map && next != entry.items.end() && leads_on(*next, steps.subspan(1));
+}
+
+/// Adds the paths of all entries below `at` that end in these steps, or of those that begin with the first of them and lead nowhere yet.
+void add_ending_so(const Yaml& at, const std::string& path, std::span<const std::string> steps, bool whole, std::vector<std::string>& out) {
+  if (at.kind != Yaml::Kind::map) return;
+  for (const Yaml& entry : at.items) {
+    if (!path.empty() && entry.key == steps[0] && (!whole || leads_on(entry, steps.subspan(1)))) {
+      out.push_back(path);
+      for (const std::string& step : steps) out.back() += step + (&step == &steps.back() ? "" : ".");
+    }
+    add_ending_so(entry, path + entry.key + ".", steps, whole, out);
+  }
+}
+
+/// " Did you mean "joints.pin.clearance"?" of "pin.clearance"; empty if nothing ends so.
+std::string did_you_mean_below(const Yaml& scene, const std::vector<std::string>& steps) {
+  std::vector<std::string> found;
+  add_ending_so(scene, "", steps, true, found);
+  if (found.empty()) add_ending_so(scene, "", steps, false, found);
+  constexpr std::size_t most = 3;
+  if (found.size() > most) found.resize(most);
+  for (std::string& path : found) path = '"' + path + '"';
+  return found.empty() ? "" : " Did you mean " + listed(found) + "?";
+}
+
 /// Follows one override down the tree.
 class Walk {
  public:
@@ -104,6 +135,11 @@ class Walk {
  private:
   [[noreturn]] void fail(const std::string& message) const { throw SceneError(file_, {set_by_override, path_}, message); }
 
+  [[noreturn]] void fail_at_top(const Yaml& scene, const std::vector<std::string>& known) const {
+    const std::string below = did_you_mean_below(scene, steps_);
+    fail("a scene has no key \"" + steps_[0] + "\"." + (below.empty() ? did_you_mean(steps_[0], known) : below));
+  }
+
   /// The path of the first n steps.
   std::string upto(std::size_t n) const {
     std::string out;
@@ -114,8 +150,7 @@ class Walk {
   void must_be_key(const Yaml& group, std::size_t i) const {
     if (i == 0) {
       const std::vector<std::string> known = top_keys();
-      if (std::ranges::find(known, steps_[0]) == known.end())
-        fail("a scene has no key \"" + steps_[0] + "\"." + did_you_mean(steps_[0], known));
+      if (std::ranges::find(known, steps_[0]) == known.end()) fail_at_top(group, known);
     }
     const char* what = i == 1 ? named_entry(steps_[0]) : nullptr;
     if (what && std::ranges::find(group.items, steps_[i], &Yaml::key) == group.items.end())

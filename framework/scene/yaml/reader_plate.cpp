@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 
 #include "files/files.h"
+#include "framework/common/file_names.h"
 #include "framework/common/nearest.h"
 #include "framework/scene/yaml/reader_parts.h"
 
@@ -109,17 +109,11 @@ SceneGrid read_grid(const Node& node) {
   return grid;
 }
 
-std::string ending(const std::string& path) {
-  std::string out = fs::path(path).extension().string();
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 SceneFile read_file(const Node& plate) {
   static const std::vector<std::string> drawings{".geo", ".step", ".stp", ".brep"}, meshes{".msh", ".inp"};
   const Node node = plate.at("file");
   SceneFile file{node.file("the name of a drawing or mesh beside the scene"), 1, false};
-  const std::string kind = ending(file.path);
+  const std::string kind = ending_of(file.path);
   const bool drawing = std::ranges::find(drawings, kind) != drawings.end();
   if (!drawing && std::ranges::find(meshes, kind) == meshes.end())
     node.fail(node.shown() + " must be a drawing (" + listed(drawings) + ") or a mesh (" + listed(meshes) + ")");

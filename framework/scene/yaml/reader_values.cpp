@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "files/files.h"
+#include "framework/common/file_names.h"
 #include "framework/common/nearest.h"
 #include "framework/scene/units/table.h"
 #include "framework/scene/yaml/reader_parts.h"
@@ -101,7 +102,7 @@ std::filesystem::path table_file(const Node& node, const std::filesystem::path& 
   std::vector<std::string> beside;
   const fs::path place = path.has_parent_path() ? path.parent_path() : ".";
   for (auto entry = fs::directory_iterator(place, error); !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (entry->path().extension() == path.extension()) beside.push_back(entry->path().filename().string());
+    if (ending_of(entry->path()) == ending_of(path)) beside.push_back(entry->path().filename().string());
   std::ranges::sort(beside);  // folders have no order
   const std::string near = nearest(path.filename().string(), beside);
   named.fail("\"" + file + "\": there is no such file; check the path" +

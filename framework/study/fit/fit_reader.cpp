@@ -138,7 +138,7 @@ FitPlan read_fit(const fs::path& path, const Overrides& set) {
   out.base = cases_of(file, first_points(root.at("vary"), out.variables, sample, out.seed), path, set,
                       root.has("fit") ? step_limit(root.at("fit")) : Overrides{});
   out.base.print = fingerprint("fit", out.base.print);
-  validate_measures(out.base);
+  validate_measures(out.base, {"case", "phase", "goal", "worst excess", "status", "reason"});
   out.source = file.study.scene;
   out.source.common.insert(out.source.common.end(), set.begin(), set.end());
   return out;

@@ -100,6 +100,16 @@ SectionQuestion read_section(const Node& node, const ExpressionCheck& expression
   return out;
 }
 
+/// @param varied  the parameter, if any   @throws SceneError  something recorded is called like another column of section.csv or orbits.csv
+void require_other_names(const Node& record, const SectionQuestion& section, const std::vector<std::string>& varied) {
+  std::vector<std::string> columns{"direction", "return", "t", "period", "least period", "found from", "stability"};
+  columns.insert(columns.end(), varied.begin(), varied.end());
+  for (const Recorded& one : section.record) {
+    const Node entry = record.is_map() ? record.at(one.name) : record;
+    if (std::ranges::find(columns, one.name) != columns.end()) entry.fail("\"" + one.name + "\" " + taken_name);
+  }
+}
+
 LyapunovQuestion read_lyapunov(const Node& node, const ExpressionCheck& expressions) {
   check_keys(node, "study.lyapunov");
   LyapunovQuestion out;
@@ -156,6 +166,7 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
   if (root.has("section")) out.question.section = read_section(root.at("section"), expressions);
+  if (out.question.section) require_other_names(root.at("section").at("record"), *out.question.section, cases.names);
   if (root.has("orbit")) out.question.cycle = read_cycle(root.at("orbit"), out.question.section);
   if (root.has("lyapunov")) {
     out.question.lyapunov = read_lyapunov(root.at("lyapunov"), expressions);

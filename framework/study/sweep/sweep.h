@@ -45,8 +45,10 @@ Sweep read_sweep(const std::filesystem::path&, const Overrides& set = {});
 /// @param common  further overrides, which are in the study's text
 /// @throws SceneError  none of the cases can be read, or a name is unknown
 Sweep cases_of(const StudyFile&, Cases, const std::filesystem::path&, const Overrides& set, const Overrides& common);
-/// @throws SceneError  a measured quantity does not exist
-void validate_measures(const Sweep&);
+/// @param columns  of the table besides those of measures and of what is varied
+/// @throws SceneError  a measured quantity does not exist, or is called like a column
+void validate_measures(const Sweep&,
+                       std::vector<std::string> columns = {"case", "status", "reason", "t_end", "steps", "impacts", "unexplained share"});
 /// The override for `most steps` in a section.
 Overrides step_limit(const Node& section);
 

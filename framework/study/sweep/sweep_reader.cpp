@@ -164,7 +164,11 @@ Sweep cases_of(const StudyFile& file, Cases cases, const fs::path& path, const O
   return out;
 }
 
-void validate_measures(const Sweep& sweep) {
+void validate_measures(const Sweep& sweep, std::vector<std::string> columns) {
+  for (std::size_t i = 0; i < sweep.cases.names.size(); ++i)
+    require_other_name(sweep.cases.names[i], columns, sweep.study.file, sweep.cases.places[i]);
+  columns.insert(columns.end(), sweep.cases.names.begin(), sweep.cases.names.end());
+  require_other_names(sweep.study.measures, columns);
   const Scene all_have = common_scene(sweep.study.scene);
   validate(sweep.study.measures, all_have);
   validate_flexible(sweep.study.measures, all_have, sweep.cases.names);

@@ -82,8 +82,17 @@ void validate_settings(const StudyFile& study, const TradePlan& plan) {
   }
 }
 
+std::vector<std::string> own_columns() {
+  return {"setting", "status",      "time",  "least time",          "most time", "timed runs", "build",
+          "steps",   "evaluations", "error", "error not told from", "role",      "reason"};
+}
+
 void validate_measures(const CaseSource& source, const TradePlan& plan, const std::vector<Measure>& measures) {
-  std::vector<std::string> varied;
+  std::vector<std::string> varied, columns = own_columns();
+  for (const Measure& m : measures)
+    for (const char* const error : {"error of ", "reference's error of ", "model's error of "}) columns.push_back(error + m.name);
+  for (const FidelityAxis& axis : plan.axes) columns.push_back(axis.name);
+  require_other_names(measures, columns);
   for (const FidelityAxis& axis : plan.axes)
     for (const AxisValue& v : axis.values)
       for (const auto& [path, text] : v.set) varied.push_back(path);

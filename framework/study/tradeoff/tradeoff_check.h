@@ -9,4 +9,7 @@ namespace pintle {
 /// @throws SceneError  naming the study's file, line and key; likewise for the overrides of the reference
 void validate_settings(const StudyFile&, const TradePlan&);
 
+/// Columns of tradeoff.csv besides those of axes and measures, without units.
+std::vector<std::string> own_columns();
+
 }  // namespace pintle

@@ -95,6 +95,7 @@ TradePlan read_tradeoff(const StudyFile& study) {
   if (node.has("ensemble")) plan.ensemble = static_cast<int>(std::min(node.at("ensemble").count(4), 100000L));
   double all = 1;
   for (const Node& axis : node.at("axes").entries("axes and their settings: {tolerance: {run.tolerance: [1e-4, 1e-6]}}")) {
+    require_other_name(axis.name(), own_columns(), study.study.file, axis.place());
     plan.axes.push_back(read_axis(axis, entry(entry(tree, "axes"), axis.name())));
     all *= static_cast<double>(plan.axes.back().values.size());
   }
