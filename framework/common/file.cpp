@@ -129,12 +129,15 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::append(std::string_view record) {
-  constexpr auto long_ago = std::chrono::seconds(1);
   if (failed_) return;
   buffer_.reserve(buffer_.size() + record.size());  // so that a record is added completely or not at all
   ends_.push_back(buffer_.size() + record.size());
   buffer_ += record;
-  if (buffer_.size() >= many || std::chrono::steady_clock::now() - flushed_ > long_ago) flush();
+  buffer_.size() >= many ? flush() : flush_if_due();
+}
+
+void FileWriter::flush_if_due() {
+  if (!buffer_.empty() && std::chrono::steady_clock::now() - flushed_ > std::chrono::seconds(1)) flush();
 }
 
 void FileWriter::flush() {

@@ -27,6 +27,7 @@ class FileWriter {
   /// @throws FileError  once; later records are dropped
   void append(std::string_view record);
   void flush();
+  void flush_if_due();  ///< if a second has passed: for records that no other follows for long
   void close();  ///< flushes. @throws FileError
 
  private:

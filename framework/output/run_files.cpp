@@ -82,17 +82,8 @@ void RunFiles::add(const Table& trajectory, const Table& ledger, const std::vect
   add_rows(ledger, ledger_);
   while (impacts_ < impacts.size() && !std::isnan(impacts[impacts_].end)) add_impact(impacts[impacts_]);
   if (actions_) add_actions(happenings);
-  flush_events();
-}
-
-// A writer looks at the clock when a record comes, and after a burst of impacts or actions none may come for long.
-void RunFiles::flush_events() {
-  using std::chrono::steady_clock;
-  if (on_disk_ == impacts_ + did_ || steady_clock::now() - flushed_ < std::chrono::seconds(1)) return;
-  events_.flush();
-  if (actions_) actions_->flush();
-  on_disk_ = impacts_ + did_;
-  flushed_ = steady_clock::now();
+  events_.flush_if_due();
+  if (actions_) actions_->flush_if_due();
 }
 
 void RunFiles::flush() {

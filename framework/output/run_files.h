@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,13 +28,11 @@ class RunFiles {
   void add_rows(const Table&, FileWriter&);
   void add_impact(const Impact&);
   void add_actions(const std::vector<Happening>&);
-  void flush_events();
 
   const System& system_;
   FileWriter trajectory_, ledger_, events_;
   std::optional<FileWriter> actions_;
-  std::size_t impacts_ = 0, did_ = 0, on_disk_ = 0;  ///< number written; of both together, flushed
-  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
+  std::size_t impacts_ = 0, did_ = 0;  ///< number written
   std::string row_;
 };
 
