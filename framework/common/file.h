@@ -28,7 +28,7 @@ class FileWriter {
   void append(std::string_view record);
   void flush();
   void flush_if_due();  ///< if a second has passed: for records that no other follows for long
-  void close();  ///< flushes. @throws FileError
+  void close();         ///< flushes. @throws FileError
 
  private:
   void cut(std::size_t written);
