@@ -16,9 +16,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double meets = 1e-6;      // of the mechanism's length, or radians: largest gap of a joint at engagement
-constexpr double too_far_in = 0.1;  // relative to a contact's size: largest depth at engagement
-constexpr double agrees = 1e-9;     // relative to the fastest speed
+constexpr double meets = 1e-6;   // of the mechanism's length, or radians: largest gap of a joint at engagement
+constexpr double agrees = 1e-9;  // relative to the fastest speed
 
 double& released(const System& system, int k, VectorXd& y) { return y[system.switch_begin() + 2 * k]; }
 double& offset(const System& system, int k, VectorXd& y) { return y[system.switch_begin() + 2 * k + 1]; }
