@@ -25,6 +25,8 @@ int report(const Options& options) {
   const fs::path directory = without_slash(options.scene);
   const fs::path file = options.out.empty() ? directory / "report.html" : fs::path(options.out);
   const bool there = fs::is_directory(directory), shown = there && (time_of_last_row(directory) || has_table_page(directory));
+  if (fs::exists(directory / "part.json"))
+    throw ResultsError(directory.string() + ": holds a part of a sweep; join all its parts by pintle merge, and report the result");
   const std::string why = there && !shown ? why_without("motion", directory) : "";
   if (!why.empty()) throw ResultsError(directory.string() + ": has nothing to show: " + why);
   if (!options.out.empty()) require_file_place(file);

@@ -2,6 +2,7 @@
 #include "framework/study/sweep/merge.h"
 
 #include <algorithm>
+#include <fstream>
 #include <optional>
 #include <regex>
 #include <set>
@@ -255,6 +256,11 @@ TEST(SweepPart, ACurveThatIsLackingIsRefused) {
   const Sweep sweep = sweep_in(folder, grid + "keep: [angle of rod]\n");
   const std::vector<fs::path> parts = parts_in(folder, sweep, 2);
   EXPECT_EQ(refusal_of(parts), "accepted");
+  const std::string whole = contents(parts[0] / "curves/case-1.csv");
+  for (const std::string& torn : {std::string(), whole.substr(0, whole.size() / 2), whole + "1\n"}) {
+    std::ofstream(parts[0] / "curves/case-1.csv", std::ios::binary) << torn;
+    pintle_test::expect_says(refusal_of(parts), {"case-1.csv: is empty or torn", "run the part again"});
+  }
   fs::remove(parts[0] / "curves/case-1.csv");
   pintle_test::expect_says(refusal_of(parts), {"curves: lacks a curve of case 1", "run the part again"});
 }

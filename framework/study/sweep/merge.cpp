@@ -1,8 +1,10 @@
 #include "framework/study/sweep/merge.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "files/files.h"
@@ -16,6 +18,7 @@ namespace pintle {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr auto npos = std::string::npos;
 
 struct Found {
   fs::path folder;
@@ -79,9 +82,20 @@ std::string parts_text(const std::vector<std::size_t>& numbers, std::size_t coun
   return (numbers.size() == 1 ? "part " : "parts ") + listed(words, "and") + " of " + std::to_string(count);
 }
 
-std::string command_for(const PartFile& file, std::size_t number) {
-  return "pintle sweep " + file.file + " --shard " + std::to_string(number) + "/" + std::to_string(file.part.count);
+/// A name as a shell reads it.
+std::string shell_word(const std::string& name) {
+  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("/._-+=:,@%").find(c) != npos; };
+  if (!name.empty() && std::ranges::all_of(name, plain)) return name;
+  std::string out = "'";
+  for (const char c : name) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
 }
+
+std::string command_for(const PartFile& file, std::size_t number) {
+  return "pintle sweep " + shell_word(file.file) + " --shard " + std::to_string(number) + "/" + std::to_string(file.part.count);
+}
+
+constexpr const char* and_set = ", with the --set of the other parts if they had any";
 
 /// @pre in the order of their numbers
 void validate_numbers(const std::vector<Found>& parts) {
@@ -100,7 +114,7 @@ void validate_numbers(const std::vector<Found>& parts) {
   if (!missing.empty())
     throw SceneError(parts_text(missing, first.part.count) + (missing.size() == 1 ? " is" : " are") +
                      " missing; name the folders of all parts, or run " + (missing.size() == 1 ? "it" : "them") + ": " +
-                     command_for(first, missing.front()));
+                     command_for(first, missing.front()) + and_set);
 }
 
 /// Reads the cases of a part. @throws SceneError  the journals are damaged, or not of this part
@@ -152,11 +166,31 @@ std::size_t case_of(std::string_view name) {
 
 fs::path curves_in(const fs::path& folder) { return folder / "curves"; }
 
-/// @param each  curves of a finished case: one per situation  @throws SceneError  a finished case lacks one
+/// Whether a table of numbers has complete rows alone, as many fields in each; a torn file has not.
+bool is_whole_table(std::string_view text) {
+  if (text.empty() || text.back() != '\n') return false;
+  std::optional<std::ptrdiff_t> commas;
+  for (std::size_t begin = text.find('\n') + 1, end = 0; begin < text.size(); begin = end + 1) {
+    end = text.find('\n', begin);
+    const auto here = std::ranges::count(text.substr(begin, end - begin), ',');
+    if (commas.value_or(here) != here) return false;
+    commas = here;
+  }
+  return commas.has_value();
+}
+
+/// @param each  curves of a finished case: one per situation  @throws SceneError  a finished case lacks one, or one is torn
 void validate_curves(const Found& part, std::size_t each) {
   std::map<std::size_t, std::size_t> curves;
   if (fs::is_directory(curves_in(part.folder)))
-    for (const std::string& name : names_in(curves_in(part.folder))) ++curves[case_of(name)];
+    for (const std::string& name : names_in(curves_in(part.folder))) {
+      if (case_of(name) == 0) continue;
+      if (!is_whole_table(text_in_part(curves_in(part.folder) / name)))
+        throw SceneError(
+            (curves_in(part.folder) / name).string(), {},
+            "is empty or torn; copy the folder of " + part_text(part.file.part) + " again, or remove it and run the part again");
+      ++curves[case_of(name)];
+    }
   for (const Row& row : part.rows)
     if (row.status == status_text(Status::finished) && curves[row.number] < each)
       throw SceneError(curves_in(part.folder).string(), {},
@@ -181,7 +215,7 @@ void validate_finished(const std::vector<Found>& parts) {
   if (count > most) said += "; and " + std::to_string(count - most) + " more parts lack cases";
   if (first)
     throw SceneError(said + ". Finish " + (count == 1 ? "it" : "them") + " with the command that began " + (count == 1 ? "it" : "them") +
-                     ": " + command_for(first->file, first->file.part.number) + " --out " + first->folder.string());
+                     ": " + command_for(first->file, first->file.part.number) + " --out " + shell_word(first->folder.string()) + and_set);
 }
 
 /// Moves the processes of a part behind those of the parts before. @returns how many there are
