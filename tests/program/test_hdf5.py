@@ -125,7 +125,7 @@ class Hdf5(unittest.TestCase):
         alone = shutil.copy(pintle, self.place / "pintle")
         done = subprocess.run([alone, "run", "scene.yaml", "--out", "out", "--hdf5"], cwd=self.place, capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("pintle-hdf5 is missing, and `pintle run --hdf5` needs it; install the packages", done.stderr)
+        self.assertIn("pintle-hdf5 is missing, and `pintle run --hdf5` needs it; build all programs (./dev build)", done.stderr)
         self.assertEqual(list(self.place.glob("out*")), [])
 
     def test_names_text_and_empty_fields(self):
