@@ -142,6 +142,9 @@ int sweep(const Options& options) {
 int merge(const Options& options) {
   const std::filesystem::path out = results_directory(options);
   require_place(out);
+  for (const std::string& part : options.folders)
+    if (const std::string from = fs::proximate(fs::absolute(out), fs::absolute(part)).string(); !from.starts_with(".."))
+      throw SceneError("--out " + out.string() + ": lies in the part " + part + "; name a folder outside of the parts");
   now_doing("reading the parts");
   const Merged merged = read_parts({options.folders.begin(), options.folders.end()});
   for (const std::string& note : merged.end.notes) std::cerr << "note: " << note << "\n";

@@ -95,6 +95,16 @@ class Folders(unittest.TestCase):
             self.refusal("begun: has no tables (.csv): " + goes_on, "hdf5", "begun")
             self.done("hdf5", "sweep")
 
+    def test_parts_of_a_sweep(self):
+        for part in "12":
+            self.done("sweep", "sweep.yaml", "-q", "--shard", part + "/2", "--out", "p" + part)
+        self.refusal("p1: holds a part of a sweep; join all its parts by pintle merge", "report", "p1")
+        inside = self.say("merge", "p1", "p2", "--out", "p2/whole")
+        self.assertEqual(inside.returncode, 2)
+        self.assertIn("--out p2/whole: lies in the part p2; name a folder outside", inside.stderr)
+        self.done("merge", "-q", "p1", "p2", "--out", "whole")
+        self.done("report", "-q", "whole")
+
     def test_without_permission(self):
         anyone = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
         try:
