@@ -46,7 +46,7 @@ Axis impact_count() {
       "while that is less than one impact in all.",
       {}};
   const auto add = [&](long n, bool linear) {
-    const bool nightly = n > 100'000;
+    const bool nightly = n > 100'000 || (linear && n == 100'000);
     axis.cases.push_back({.value = static_cast<double>(n),
                           .label = printed("%ld", n),
                           .what = linear ? "exponent 1" : "exponent 1.5",

@@ -179,7 +179,7 @@ TEST_F(View, AnswersItsOwnPageAlone) {
 
 TEST_F(View, RefusesOtherMethodsWithoutWaitingForABody) {
   const auto said = [&](const std::string& method) {
-    return answered(method + " " + root_ + "now HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
+    return answered(method + " " + root_ + "now HTTP/1.1\r\nConnection: close\r\nHost: " + host() + "\r\n\r\n");
   };
   for (const std::string method : {"PUT", "PATCH", "DELETE", "OPTIONS"}) EXPECT_EQ(status(said(method)), "405") << method;
   EXPECT_EQ(status(said("POST")), "411");
