@@ -168,7 +168,7 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
     }
     const double depth = eq.contact[c].gap.depth;
     if (!(depth > 0)) continue;
-    if (const double size = contact_size(system.contacts[c], system.length); depth > too_deep * size)
+    if (const double size = contact_size(system.contacts[c], system.length); depth > deepest_valid * size)
       out.warnings.push_back("\"" + system.contact_names[c] +
                              "\": " + (system.contacts[c].profiles ? "the surfaces overlap by " : "the journal rests ") +
                              number_text(depth) + (system.contacts[c].profiles ? " m" : " m in the wall") +

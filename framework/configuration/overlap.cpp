@@ -62,7 +62,7 @@ void require_outside(const Scene& scene, const Model& model, const State& start)
     for (std::size_t k = 0; k < model.system.contacts.size(); ++k) {
       const ContactPair& pair = model.system.contacts[k];
       if (model.system.contact_names[k] != c.name) continue;
-      if (depth > too_deep * std::min(contact_size(pair, model.system.length), pair.deepest))
+      if (depth > deepest_valid * std::min(contact_size(pair, model.system.length), pair.deepest))
         throw AssemblyError(scene.file, c.place, overlap_words(pair, depth));
     }
   }
@@ -77,7 +77,7 @@ void require_apart(const Scene& scene, const Model& model, const State& start) {
     const ContactPair& pair = system.contacts[c];
     if (!(pair.profiles || is_rigid(pair)) || !(onset_of(system, static_cast<int>(c), start).value > 0)) continue;
     const double depth = gap_of(system, static_cast<int>(c), start).value;
-    if (!(depth > (is_rigid(pair) ? rounding * system.length : too_deep * contact_size(pair, system.length)))) continue;
+    if (!(depth > (is_rigid(pair) ? rounding * system.length : deepest_valid * contact_size(pair, system.length)))) continue;
     throw AssemblyError(scene.file, named_place(scene, system.contact_names[c]), overlap_words(pair, depth));
   }
   require_outside(scene, model, start);

@@ -13,9 +13,6 @@
 
 namespace pintle {
 
-/// Overlap relative to the journal's radius beyond which no contact law here is valid.
-inline constexpr double too_deep = 0.1;
-
 /// A point whose motion is recorded.
 struct RecordedPoint {
   std::string name;  ///< "coupler.M"

@@ -38,4 +38,16 @@ inline std::string contents(const fs::path& path) {
   return s.str();
 }
 
+/// A pendulum whose length, mass and start angle are parameters.
+inline std::string pendulum_scene(const std::string& run = "{until: 0.2 s, tolerance: 1e-8}") {
+  return R"(
+gravity: [0, -9.81]
+parameters: {mass: 0.5 kg, angle: 0 deg, length: 0.2 m}
+bodies: {rod: {rigid: {mass: mass, inertia: 0.01 kg m^2}, points: {O: [-length, 0]}}}
+joints: {hinge: {revolute: [ground, rod.O]}}
+start: {rod: {angle: angle}}
+run: )" + run +
+         "\n";
+}
+
 }  // namespace pintle

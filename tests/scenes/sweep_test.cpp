@@ -19,14 +19,7 @@
 namespace pintle::sweep_test {
 namespace {
 
-constexpr const char* pendulum = R"(
-gravity: [0, -9.81]
-parameters: {mass: 0.5 kg, angle: 0 deg, length: 0.2 m}
-bodies: {rod: {rigid: {mass: mass, inertia: 0.01 kg m^2}, points: {O: [-length, 0]}}}
-joints: {hinge: {revolute: [ground, rod.O]}}
-start: {rod: {angle: angle}}
-run: {until: 0.2 s, tolerance: 1e-8}
-)";
+const std::string pendulum = pendulum_scene();
 constexpr const char* study = R"(
 scene: scene.yaml
 measure: {turn: angle of rod at 0.2 s, load: peak force at hinge}
@@ -122,7 +115,7 @@ TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
     return pintle_test::refusal_by([&] { run_sweep(read_sweep(folder / "study.yaml"), folder / "out", {1, nullptr, {}}); });
   };
   EXPECT_EQ(refusal(), "accepted");
-  folder.write("scene.yaml", std::string(pendulum) + "# changed\n");
+  folder.write("scene.yaml", pendulum + "# changed\n");
   EXPECT_NE(refusal().find("belongs to another study. The scene differs from the one that ran there"), std::string::npos) << refusal();
   EXPECT_NE(refusal().find("--out"), std::string::npos);
   fs::create_directories(folder / "other");
@@ -133,7 +126,7 @@ TEST(Sweep, AFolderOfAnotherStudyIsRefused) {
 TEST(Sweep, ATableThatTheSceneNamesBelongsToTheStudy) {
   const SweepFolder folder;
   folder.write("push.csv", "0 0\n1 2\n");
-  folder.write("scene.yaml", std::string(pendulum) + "forces: {push: {torque: {table: push.csv}, on: rod}}\n");
+  folder.write("scene.yaml", pendulum + "forces: {push: {torque: {table: push.csv}, on: rod}}\n");
   folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {list: [{angle: 0 deg}]}\n");
   const std::uint64_t before = read_sweep(folder / "study.yaml").print;
   EXPECT_EQ(read_sweep(folder / "study.yaml").print, before);

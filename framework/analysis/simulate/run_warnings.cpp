@@ -22,7 +22,7 @@ void warn_of_depth(const System& system, Run& run) {
   for (std::size_t c = 0; c < deepest.size(); ++c)
     if (const ContactPair& pair = system.contacts[c]; is_rigid(pair)) {
       continue;
-    } else if (deepest[c] > too_deep * contact_size(pair, system.length)) {
+    } else if (deepest[c] > deepest_valid * contact_size(pair, system.length)) {
       std::ostringstream s;
       s.precision(3);
       s << "\"" << system.contact_names[c] << "\": the " << (pair.profiles ? "surfaces overlapped by " : "journal went ") << deepest[c]

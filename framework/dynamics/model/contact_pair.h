@@ -95,6 +95,8 @@ inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
 
 /// The smallest radius of its pieces; for teeth, of their pitch circles; between a corner and a line, the mechanism's length [m].
 double contact_size(const ContactPair&, double mechanism);
+/// Overlap relative to contact_size beyond which no contact law here is valid.
+inline constexpr double deepest_valid = 0.1;
 /// The length that its depth is compared with: the clearance of a piece inside a hollow one, half the backlash of teeth, otherwise a
 /// hundredth of the size of the pieces [m].
 double fine_length(const ContactPair&, double mechanism);

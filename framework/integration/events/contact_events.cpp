@@ -208,7 +208,7 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   if (is_rigid(pair)) return onset ? strike({event}, step) : part(event, step);
   const Guard now = gap_of(system_, event, step.to.state);
   const bool inside = onset && pair.profiles && now.value > watch(event).zero;  // it enters from the side
-  if (inside && now.value > too_far_in * contact_size(pair, system_.length))
+  if (inside && now.value > deepest_valid * contact_size(pair, system_.length))
     return {.failure = name(event) + ": the bodies come to face each other at a depth of " + number_text(now.value, 3) +
                        " m, from behind a surface or round the end of its path, and a force of this depth would begin at once; close the "
                        "path (closed: true), lengthen it, or keep the bodies in front of it"};

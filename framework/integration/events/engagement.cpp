@@ -116,7 +116,7 @@ std::string too_deep(const System& system, const SwitchOver& one, const State& s
     const auto overlap = [&](const char* most, const char* remedy) {
       return "cannot be engaged: its surfaces overlap by " + number_text(depth, 6) + " m there, more than " + most + "; " + remedy;
     };
-    if (!pair.flank && depth > too_far_in * contact_size(pair, system.length))
+    if (!pair.flank && depth > deepest_valid * contact_size(pair, system.length))
       return overlap("a tenth of their smallest radius", "engage it while they are apart");
     if (pair.flank && depth > pair.flank->half)
       return one.pitch > 0 ? overlap("half the backlash of its teeth, in the nearest gap too",

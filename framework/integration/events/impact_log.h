@@ -13,8 +13,6 @@ namespace pintle {
 Guard gap_of(const System&, int contact, const State&);
 /// The gap of a contact and its normal force, from the same data; nothing else is computed.
 ContactEffect pressing(const System&, int contact, const State&);
-/// The largest depth at which a contact may begin, relative to contact_size: no contact law holds deeper.
-inline constexpr double too_far_in = 0.1;
 /// Positive where an open contact touches: the overlap; for profiles also the distance inside its pieces.
 Guard onset_of(const System&, int contact, const State&);
 /// For profiles, how far inside its pieces a contact is, and at which side it is nearest to leaving them.

@@ -70,13 +70,13 @@ std::optional<Json> unsealed(std::string_view line) {
 
 std::string heading(std::uint64_t study) { return sealed({{"pintle sweep", fingerprint_text(study)}}); }
 
-std::string remedy(const fs::path& path) {
+std::string remedy_of_sweep(const fs::path& path) {
   return "name another directory with --out, or remove " + path.parent_path().string() + " and run the sweep again";
 }
 
 /// @returns false: there is no heading yet, because its process was killed while writing it
 /// @throws OtherStudy, SceneError
-bool validate_heading(const fs::path& path, const std::string& text, std::uint64_t study) {
+bool validate_heading(const fs::path& path, const std::string& text, std::uint64_t study, const std::string& remedy) {
   const std::string ours = heading(study);
   const std::size_t end = text.find('\n');
   if (end == std::string::npos && text.size() <= ours.size() &&
@@ -85,7 +85,7 @@ bool validate_heading(const fs::path& path, const std::string& text, std::uint64
   const std::optional<Json> first = end == std::string::npos ? std::nullopt : unsealed(std::string_view(text).substr(0, end));
   if (!first || !first->is_object() || !first->contains("pintle sweep"))
     throw SceneError(path.string() + ":1: is damaged: its first line does not name a sweep, so its cases may belong to another one; " +
-                     remedy(path));
+                     remedy);
   if (text.substr(0, end + 1) != ours)
     throw OtherStudy(path.string(), {},
                      "belongs to another study, or was written before the study, its scene, a file that they name, --set or the program "
@@ -94,11 +94,11 @@ bool validate_heading(const fs::path& path, const std::string& text, std::uint64
   return true;
 }
 
-std::string contents(const fs::path& path) {
+std::string contents(const fs::path& path, const std::string& remedy) {
   try {
     return read_file(path, std::numeric_limits<std::size_t>::max());
   } catch (const FileRefused& rejected) {
-    throw SceneError(path.string() + ": " + rejected.what() + "; " + remedy(path));
+    throw SceneError(path.string() + ": " + rejected.what() + "; " + remedy);
   }
 }
 
@@ -118,9 +118,8 @@ bool locked(int file, int how, double patience) {
 /// Note about an incomplete last line.
 std::string torn(const fs::path& path, const std::string& text) {
   const auto line = 1 + std::count(text.begin(), text.end(), '\n');
-  return path.string() + ":" + std::to_string(line) +
-         ": is incomplete, because its process ended while writing it; the line is dropped and " +
-         (line == 1 ? "the journal begins again" : "its case is run again");
+  return path.string() + ":" + std::to_string(line) + ": is incomplete, because its process ended while writing it; " +
+         (line == 1 ? "no case counts as run" : "its case counts as not run");
 }
 
 bool is_journal(const fs::path& path) { return path.filename().string().starts_with("journal-") && path.extension() == ".txt"; }
@@ -167,7 +166,7 @@ std::optional<Row> row_of(std::string_view line) try {
 Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::string>* notes) : path_(path) {
   std::error_code error;
   if (const fs::file_status there = fs::status(path, error); fs::exists(there) && !fs::is_regular_file(there))
-    throw SceneError(path.string() + ": is not an ordinary file; " + remedy(path));
+    throw SceneError(path.string() + ": is not an ordinary file; " + remedy_of_sweep(path));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0)
     throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + "); name another place with --out");
@@ -176,8 +175,8 @@ Journal::Journal(const fs::path& path, std::uint64_t study, std::vector<std::str
       throw std::runtime_error(path.string() +
                                ": another process works on this sweep; wait for it, or end it. (If several were started as one MPI job, "
                                "they do not see each other: start them with mpirun, or with srun --mpi=pmix.)");
-    const std::string text = contents(path);
-    const bool begun = validate_heading(path, text, study);
+    const std::string text = contents(path, remedy_of_sweep(path));
+    const bool begun = validate_heading(path, text, study, remedy_of_sweep(path));
     size_ = begun ? static_cast<std::int64_t>(text.rfind('\n') + 1) : 0;
     if (notes && size_ < static_cast<std::int64_t>(text.size())) notes->push_back(torn(path, text));
     if (::ftruncate(file_, size_) != 0) throw std::runtime_error(path.string() + ": cannot be written (" + std::strerror(errno) + ")");
@@ -219,24 +218,28 @@ void Journal::append(const Row& row) {
 
 fs::path journal_path(const fs::path& folder, int rank) { return folder / ("journal-" + std::to_string(rank) + ".txt"); }
 
-std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes) {
+std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std::size_t cases, std::vector<std::string>* notes,
+                               const std::string& remedy) {
   std::map<std::size_t, Row> rows;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (!is_journal(path)) continue;
-    const std::string text = contents(path);
+    const std::string otherwise = remedy.empty() ? remedy_of_sweep(path) : remedy;
+    const std::string text = contents(path, otherwise);
     if (notes && !text.ends_with('\n') && !text.empty()) notes->push_back(torn(path, text));
-    if (!validate_heading(path, text, study)) continue;
+    if (!validate_heading(path, text, study, otherwise)) continue;
     std::size_t line = 2;
     for (std::size_t begin = text.find('\n') + 1, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++line) {
       std::optional<Row> row = row_of(std::string_view(text).substr(begin, end - begin));
       const std::string where = path.string() + ":" + std::to_string(line);
       if (!row)
-        throw SceneError(where + ": is damaged: its checksum or its content is wrong; remove this line to run its case again, or " +
-                         remedy(path));
+        throw SceneError(where +
+                         ": is damaged: its checksum or its content is wrong; remove this line, then its case is run again when the sweep "
+                         "is continued, or " +
+                         otherwise);
       if (row->number < 1 || row->number > cases)
         throw SceneError(where + ": is of case " + std::to_string(row->number) + ", but the study has only " + std::to_string(cases) +
-                         "; " + remedy(path));
+                         "; " + otherwise);
       const std::size_t number = row->number;
       if (const auto [at, fresh] = rows.try_emplace(number, *row); !fresh && lacked_memory(at->second)) at->second = std::move(*row);
     }

@@ -71,10 +71,11 @@ std::filesystem::path journal_path(const std::filesystem::path& folder, int rank
 /// All journals in the folder, rows in the order of their numbers, each number once: the first row, or the one after a lack of memory. An
 /// incomplete last line is ignored.
 /// @param cases  of the study  @param notes  receives what was ignored, if not null
+/// @param remedy  what a user does about a damaged journal; empty: continue or repeat the sweep
 /// @throws OtherStudy          one belongs to another study
 /// @throws SceneError          one is damaged otherwise, or holds a case that the study does not have: naming file and line
 std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study, std::size_t cases,
-                               std::vector<std::string>* notes = nullptr);
+                               std::vector<std::string>* notes = nullptr, const std::string& remedy = {});
 
 /// Waits until no other process has a journal of the folder open. @returns false: one still has after `seconds`
 bool journals_are_free(const std::filesystem::path& folder, const std::filesystem::path& but, double seconds);

@@ -123,7 +123,9 @@ void read_rows(Found& part, std::vector<std::string>& notes) {
     throw std::runtime_error(part.folder.string() + ": a process still works on " + part_text(part.file.part) +
                              "; merge when all parts have ended");
   try {
-    part.rows = read_journals(part.folder, part.file.print, part.file.cases, &notes);
+    const std::string again = "remove " + shell_word(part.folder.string()) +
+                              " and run the part again: " + command_for(part.file, part.file.part.number) + and_set;
+    part.rows = read_journals(part.folder, part.file.print, part.file.cases, &notes, again);
   } catch (const OtherStudy&) {
     throw SceneError(part.folder.string(), {},
                      "its journal and its part.json are not of the same part of the same study; one of them was changed or copied. Remove "
