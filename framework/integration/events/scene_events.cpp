@@ -206,16 +206,25 @@ bool SceneEvents::hardly_left(int event, const Step& step, const DenseOutput& mo
   return step.h == 0 || std::abs(guard(event, motion.at(step.from.state.t + step.h / 2)).value) <= guard_still;
 }
 
+// A start may be where an earlier run located the event, as well as its clock could tell.
 void SceneEvents::start(Step& step) {
-  see(step.to.state);
+  constexpr double last_digits = 4.5e-16;  // two of the time
+  const State &state = step.to.state, next = extrapolated(step.to, guard_ahead);
+  see(state);
+  see(next);  // what begins to move has a size too
   for (int event = 0; event < size(); ++event) {
-    const double now = all_of(event, step.to.state).value;
-    const bool on_level = std::abs(now) <= guard_near, is_true = on_level ? holds(event, step.to.state) : now > 0;
+    const double now = all_of(event, state).value, rate = (all_of(event, next).value - now) / guard_ahead;
+    const bool on_level = std::abs(now) <= std::max(guard_near, last_digits * std::abs(rate * state.t));
+    const bool is_true = on_level ? true_at_zero(event, state) : now > 0;
+    double& shift = shift_[at(event)];
     if (rules_[at(event)].from_start) {
-      if (on_level && is_true) shift_[at(event)] = 2 * guard_near - now;
+      if (on_level && is_true) shift = 2 * guard_near - now;
     } else if (is_true || (on_level && rises(event, step.to))) {
       waits_[at(event)] = Waits::for_false;
-      if (on_level || true_at_zero(event, step.to.state)) shift_[at(event)] = 2 * guard_near;
+      if (on_level)
+        shift = 2 * guard_near - now;
+      else if (true_at_zero(event, state))
+        shift = 2 * guard_near;
     }
   }
 }
