@@ -31,8 +31,7 @@ namespace fs = std::filesystem;
 std::string bodies_text(const System& s) {
   const auto flexible = std::count_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.modes() > 0; });
   const auto rigid = static_cast<long>(s.bodies.size()) - flexible;
-  const std::string text =
-      flexible > 0 ? std::to_string(flexible) + " flexible with " + std::to_string(s.n() - s.n_rigid()) + " shapes" : "";
+  std::string text = flexible > 0 ? std::to_string(flexible) + " flexible with " + std::to_string(s.n() - s.n_rigid()) + " shapes" : "";
   if (rigid == 0) return text;
   return std::to_string(rigid) + " rigid" + (flexible > 0 ? ", " + text : "");
 }

@@ -74,7 +74,7 @@ int thread_count(const Options& options) {
 }
 
 fs::path results_directory(const Options& options, const std::string& suffix) {
-  const fs::path base = study_directory(options, suffix);
+  fs::path base = study_directory(options, suffix);
   if (!options.out.empty()) return base;
   fs::path path = base;
   for (int k = 2; fs::exists(path); ++k) path = base.string() + "-" + std::to_string(k);

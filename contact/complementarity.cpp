@@ -146,7 +146,7 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
   for (int way = 0; way < ways; ++way) {
     const double least_pivot = way < ways / 2 ? 1e-12 : 1e-15;  // the second for bodies wedged at an angle of its root
     for (const Lemke::Ties ties : {Lemke::Ties::largest_pivot, Lemke::Ties::ordered})
-      if (const auto z = Lemke(M, q, d, ties, least_pivot).solve(); z && solves(M, q, *z)) return z;
+      if (auto z = Lemke(M, q, d, ties, least_pivot).solve(); z && solves(M, q, *z)) return z;
     for (Index i = 0; i < d.size(); ++i) {
       const double x = golden * (static_cast<double>(i) + 1) * (way + 1);
       d[i] = 0.5 + x - std::floor(x);

@@ -229,6 +229,7 @@ Profile profile_through(const std::vector<Vector2d>& points, bool closed) {
   const std::size_t n = points.size(), least = closed ? 3 : 4;
   if (n < least) wrong("it has " + std::to_string(n) + " points; a spline takes " + std::to_string(least) + " or more");
   std::vector<PathPoint> path;
+  path.reserve(n);
   for (const Vector2d& p : points) path.push_back({p});
   stretches_of(path, closed);  // checks for two points at one place
   const auto curve = std::make_shared<const SmoothCurve>(points, closed);

@@ -65,7 +65,7 @@ Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties& p, co
 
 template <PlaneElementType E>
 Square<E> stiffness(const E& e, const Coords<E>& x) {
-  const auto K = full_stiffness<E>(e.p, point_gradients<E>(x));
+  auto K = full_stiffness<E>(e.p, point_gradients<E>(x));
   if constexpr (functions<E> == E::nodes) {
     return K;
   } else {

@@ -21,7 +21,7 @@ Mesh line_mesh(std::span<const Vector2d> corners, std::span<const int> cells) {
     reject("line mesh: ", cells.size(), " numbers of cells for ", parts, " pieces; give one for all or one a piece");
   std::vector<Vector2d> x{corners[0]};
   for (std::size_t p = 0; p < parts; ++p) {
-    const Vector2d a = corners[p], b = corners[p + 1];
+    const Vector2d &a = corners[p], &b = corners[p + 1];
     const int n = cells[cells.size() == 1 ? 0 : p];
     if (n < 1) reject("line mesh: ", n, " cells on piece ", p + 1, "; a piece needs one or more");
     if (!a.allFinite() || !b.allFinite()) reject("line mesh: a corner of piece ", p + 1, " is not finite");

@@ -52,7 +52,7 @@ void* open(const std::string& file, std::string& why) {
 static std::string beside_modules(const std::string& name, int how) {
   static const std::vector<std::string> folders = search_path();
   for (const std::string& folder : folders)
-    if (const std::string path = folder + "/" + name; access(path.c_str(), how) == 0) return path;
+    if (std::string path = folder + "/" + name; access(path.c_str(), how) == 0) return path;
   throw std::runtime_error(name +
                            ": is missing; it is built and installed with pintle: keep it in lib/pintle beside the library, or "
                            "name its folder in LD_LIBRARY_PATH");

@@ -66,7 +66,7 @@ void validate_slenderness(const FeModel& model, std::vector<std::string>& warnin
   int elements = 0;
   const auto count = [&](const auto& block) {
     for (int i = 0; i < block.size(); ++i) {
-      const auto beam = block.element(i);
+      const auto& beam = block.element(i);
       if constexpr (requires { beam.EI; }) {
         const auto x = block.coords(i, model.x);
         length += (x.col(1) - x.col(0)).norm();
@@ -96,15 +96,18 @@ AnyBlock line_block(const SceneBeam& beam, const Mesh& mesh, std::vector<Fibre>&
   Block<Bar> bars;
   Block<BeamEuler> euler;
   Block<BeamTimoshenko> timoshenko;
+  const auto along = [&](int cell) -> Vector2d {
+    const int* const end = &nodes[2 * static_cast<std::size_t>(cell)];
+    return mesh.x.col(end[1]) - mesh.x.col(end[0]);
+  };
   double length = 0;
-  for (int i = 0; i < n; ++i)
-    length += (mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)])).norm();
+  for (int i = 0; i < n; ++i) length += along(i).norm();
   double begun = 0;
   std::vector<int> cells(static_cast<std::size_t>(n));
   std::iota(cells.begin(), cells.end(), 0);
   fibres.clear();
   for (int i = 0; i < n; ++i) {
-    const Vector2d d = mesh.x.col(nodes[static_cast<std::size_t>(2 * i + 1)]) - mesh.x.col(nodes[static_cast<std::size_t>(2 * i)]);
+    const Vector2d d = along(i);
     const double middle = (begun + d.norm() / 2) / length;
     begun += d.norm();
     const BeamModuli moduli = beam_moduli(material, std::atan2(d.y(), d.x()));

@@ -143,9 +143,9 @@ ReferenceConditions reference_conditions_of(const Scene& scene, const ElasticBod
 }
 
 std::string title_of(const SceneModes& m) {
-  const std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame"
-                            : m.frame == SceneModes::Frame::chord ? "chord frame"
-                                                                  : "mean axes";
+  std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame"
+                      : m.frame == SceneModes::Frame::chord ? "chord frame"
+                                                            : "mean axes";
   switch (m.method) {
     case SceneModes::Method::normal: return "normal modes, " + frame;
     case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;

@@ -82,7 +82,7 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
   for (const SceneStaticLoad& l : scene.statics->loads) {
     const bool of_several = !scene.statics->contacts.empty();
     if ((of_several || !l.body.empty()) && scene.statics->loaded(l) != e.scene->name) continue;
-    const Vector2d v = vector(l.vector);
+    Vector2d v = vector(l.vector);
     const Port* port = l.at.empty() ? nullptr : e.model.port(l.at);
     if ((l.kind == Kind::force || l.kind == Kind::torque || (l.kind == Kind::spin && !l.at.empty())) && !port)
       point_of(scene, *e.scene, l.at, l.place);  // reports the existing ones

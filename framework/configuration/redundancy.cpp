@@ -302,14 +302,14 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
 std::string explain_pose(const System& system, double t, const VectorXd& y) {
   constexpr double close = 1e-3;  // rest of a row so near to a dead centre that no step can continue
   const RowSpace space = row_space_at(system, t, y);
-  const std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
+  std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
   if (!conflict.empty()) return conflict;
   const std::vector<Dependence> permanent = permanence(system, t, y, space.dependences).permanent;
-  if (const std::string open = misfit(system, t, y, permanent); !open.empty()) return open;
+  if (std::string open = misfit(system, t, y, permanent); !open.empty()) return open;
   const std::vector<Dependence> nearly = row_space_at(system, t, y, close).dependences;
   std::vector<Dependence> undriven = nearly;
   std::erase_if(undriven, [&](const Dependence& d) { return !names_in(system, d, true).empty(); });
-  if (const std::string open = misfit(system, t, y, undriven); !open.empty()) return open;
+  if (std::string open = misfit(system, t, y, undriven); !open.empty()) return open;
   const std::vector<bool> alone = left_out(nearly, permanent, system.n_rows());
   for (std::size_t k = 0; k < nearly.size(); ++k) {
     if (!alone[k]) continue;

@@ -235,7 +235,7 @@ void warn_of_signals(const Scene& scene, const Model& model, const State& state,
 std::string explain_signals(const Scene& scene, const Model& model, const State& start, const State& now) {
   if (model.system.laws.empty() || now.y.size() != model.system.n_y()) return "";
   constexpr double ahead = 1e-9;  // relative to the run: where it would be next
-  const std::string here = LawsAt(scene, model, start, now).found;
+  std::string here = LawsAt(scene, model, start, now).found;
   if (!here.empty()) return here;
   const System& system = model.system;
   State next = now;

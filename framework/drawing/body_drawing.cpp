@@ -67,9 +67,7 @@ BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
                 const int p = (i * stations + s) * across + side;
                 points.col(p) = x.col(0) + xi * d + offset;
                 for (int k = 0; k < E::dofs; ++k) {
-                  const int freedom =
-                      model.begin[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i * 2 + k / E::dofs_per_node)])] +
-                      k % E::dofs_per_node;
+                  const int freedom = model.begin[static_cast<std::size_t>(block.nodes_of(i)[k / E::dofs_per_node])] + k % E::dofs_per_node;
                   entries.emplace_back(2 * p, freedom, N(0, k) - offset.y() * turn(0, k));
                   entries.emplace_back(2 * p + 1, freedom, N(1, k) + offset.x() * turn(0, k));
                 }
@@ -145,9 +143,9 @@ void write_shapes(const std::filesystem::path& file, const BodyDrawing& drawing,
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
     char number[16];
     std::snprintf(number, sizeof number, "%02d", static_cast<int>(i + 1));
-    Scaled s = scaled(drawing, shapes.col(i));
-    fields.push_back({std::string("mode ") + number + " [mm]", std::move(s.u)});
-    fields.push_back({std::string("von Mises ") + number + " [Pa/mm]", std::move(s.mises)});
+    const Scaled s = scaled(drawing, shapes.col(i));
+    fields.push_back({std::string("mode ") + number + " [mm]", s.u});
+    fields.push_back({std::string("von Mises ") + number + " [Pa/mm]", s.mises});
   }
   write_grid(file, drawing.points, drawing.cells, fields);
 }

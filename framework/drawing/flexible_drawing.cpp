@@ -37,7 +37,7 @@ void add_stress(const Eigen::Matrix4Xd& stress, std::vector<Field>& fields) {
     mises[i] = von_mises(stress.col(i));
     main.col(i) = principal(stress.col(i)).head<2>();
   }
-  fields.push_back({"von Mises [Pa]", std::move(mises)});
+  fields.push_back({"von Mises [Pa]", mises});
   fields.push_back({"principal 1 [Pa]", main.row(0)});
   fields.push_back({"principal 2 [Pa]", main.row(1)});
 }

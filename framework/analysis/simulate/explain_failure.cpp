@@ -68,7 +68,7 @@ std::string explain_state(const Scene& scene, const System& system, Integrator& 
   const State at = integrator.state();
   State sampled;
   integrator.sample(at.t, sampled);
-  if (const std::string law = explain_laws(scene, at.t); !law.empty()) return law;
+  if (std::string law = explain_laws(scene, at.t); !law.empty()) return law;
   if (!at.y.allFinite()) return explain_numbers(system, integrator);
   const std::string pose = explain_pose(system, at.t, at.y);
   return pose.empty() ? explain_numbers(system, integrator) : pose;

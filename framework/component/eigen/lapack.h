@@ -2,6 +2,7 @@
 
 // The BLAS and LAPACK routines used, by their Fortran names.
 
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k, const double* alpha, const double* A,
             const int* lda, const double* B, const int* ldb, const double* beta, double* C, const int* ldc);
@@ -19,3 +20,4 @@ void dgeevx_(const char* balance, const char* job_left, const char* job_right, c
              double* re, double* im, double* left, const int* ldl, double* right, const int* ldr, int* low, int* high, double* scale,
              double* norm, double* sense_values, double* sense_vectors, double* work, const int* lwork, int* iwork, int* info);
 }
+// NOLINTEND(readability-identifier-naming)

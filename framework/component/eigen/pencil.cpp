@@ -74,7 +74,7 @@ double stiffness_over_mass(const Sparse& K, const Sparse& M) {
 }
 
 Sparse shifted(const Sparse& K, const Sparse& M, double mu) {
-  Sparse A = K;
+  Sparse A = K;  // NOLINT(performance-unnecessary-copy-initialization): its entries are changed
   for (int j = 0; j < K.outerSize(); ++j) {
     Sparse::InnerIterator a(A, j);
     for (Sparse::InnerIterator m(M, j); m; ++m) {

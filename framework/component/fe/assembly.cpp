@@ -66,7 +66,7 @@ void sum(const FeModel& model, Sparse& A, const Of& of) {
     std::visit(
         [&]<class E>(const Block<E>& block) {
           for (int i = 0; i < block.size(); ++i) {
-            const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
+            const int* node = block.nodes_of(i);
             add<E>(A, model.begin, node, of(block.element(i), block.coords(i, model.x), node));
           }
         },
@@ -193,7 +193,7 @@ Sparse Assembler::mass(MassKind kind) const {
           for (int i = 0; i < block.size(); ++i) {
             const Freedoms<E> m = lumped_mass(block.element(i), block.coords(i, model_.x));
             for (int k = 0; k < E::nodes; ++k) {
-              const int node = block.nodes[static_cast<std::size_t>(i * E::nodes + k)];
+              const int node = block.nodes_of(i)[k];
               diagonal.segment<E::dofs_per_node>(model_.begin[static_cast<std::size_t>(node)]) +=
                   m.template segment<E::dofs_per_node>(k * E::dofs_per_node);
             }
@@ -226,7 +226,7 @@ Sparse restricted(const Sparse& A, const std::vector<int>& keep) {
 
 // L = P + Q: the uncoupled part and the couplings. Q has few rows, so everything except PᵀAP is small: LᵀAL = PᵀAP + PᵀAQ + (QᵀA)L, where
 // QᵀA needs only few rows of A.
-Sparse independent(const FeModel& model, Sparse A) {
+Sparse independent(const FeModel& model, Sparse A) {  // NOLINT(performance-unnecessary-value-param): it may be the result
   if (model.L.size() == 0) return A;
   std::vector<int> stays;
   for (int i = 0; i < model.N(); ++i)

@@ -24,9 +24,10 @@ struct Block {
   std::vector<int> cells;     ///< index of the cell in the mesh, over all its blocks
   int size() const { return static_cast<int>(nodes.size()) / E::nodes; }
   const E& element(int i) const { return properties[properties.size() == 1 ? 0 : static_cast<std::size_t>(i)]; }
+  const int* nodes_of(int i) const { return &nodes[static_cast<std::size_t>(i) * E::nodes]; }
   Coords<E> coords(int i, const Eigen::Matrix2Xd& x) const {
     Coords<E> c;
-    const int* node = &nodes[static_cast<std::size_t>(i * E::nodes)];
+    const int* node = nodes_of(i);
     for (int k = 0; k < E::nodes; ++k) c.col(k) = x.col(node[k]);
     return c;
   }

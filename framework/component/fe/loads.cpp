@@ -70,7 +70,7 @@ Eigen::VectorXd line_load(const FeModel& model, const Eigen::Vector2d& q) {
             for (int i = 0; i < block.size(); ++i) {
               const Freedoms<E> f = pintle::line_load(block.element(i), block.coords(i, model.x), q);
               for (int k = 0; k < E::nodes; ++k) {
-                const int node = block.nodes[static_cast<std::size_t>(i * E::nodes + k)];
+                const int node = block.nodes_of(i)[k];
                 load.segment<E::dofs_per_node>(model.begin[static_cast<std::size_t>(node)]) +=
                     f.template segment<E::dofs_per_node>(k * E::dofs_per_node);
               }

@@ -48,7 +48,7 @@ struct Filling {
   template <class E>
   void lines(const Block<E>& block) {
     for (int i = 0; i < block.size(); ++i, ++line) {
-      const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
+      const int* node = block.nodes_of(i);
       const Stress<E> forces = stress(block.element(i), block.coords(i, model.x), gathered<E>(model, node, u));
       field.section_forces.middleCols<2>(2 * line) = forces;
       if (fibres.empty()) continue;
@@ -90,7 +90,7 @@ struct Filling {
     if (block.size() == 0) return;
     Sheet& sheet = sheet_of(block);
     for (int i = 0; i < block.size(); ++i, point += E::points) {
-      const int* node = &block.nodes[static_cast<std::size_t>(i * E::nodes)];
+      const int* node = block.nodes_of(i);
       const E& e = block.element(i);
       const Coords<E> x = block.coords(i, model.x);
       const Stress<E> at_points = stress(e, x, gathered<E>(model, node, u));

@@ -24,7 +24,7 @@ constexpr double hardly_held = 1e-4;  // relative size of a motion that contacts
 
 /// Rigid motions, n × r, of similar size, that do not move the fixed freedoms.
 MatrixXd motions_left(const FeModel& model, const Supports& supports) {
-  const MatrixXd all = scaled_rigid_motions(model);
+  MatrixXd all = scaled_rigid_motions(model);
   if (supports.freedoms.empty()) return all;
   const MatrixXd held = all(supports.freedoms, Eigen::all);
   const Eigen::JacobiSVD<MatrixXd> svd(held, Eigen::ComputeFullV);
@@ -86,7 +86,7 @@ class TouchingBodies::Held {
 
 TouchingBodies::~TouchingBodies() = default;
 
-TouchingBodies::TouchingBodies(std::vector<TouchingBody> bodies, std::vector<TouchingPair> pairs) : pairs_(std::move(pairs)) {
+TouchingBodies::TouchingBodies(const std::vector<TouchingBody>& bodies, std::vector<TouchingPair> pairs) : pairs_(std::move(pairs)) {
   Index rows = 0, motions = 0;
   for (const TouchingPair& p : pairs_) rows += p.rows.gap.size();
   gap_.resize(rows);

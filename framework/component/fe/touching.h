@@ -35,7 +35,7 @@ struct TouchingSolution {
 class TouchingBodies {
  public:
   /// @throws std::runtime_error  a body's stiffness is not positive; contacts cannot restrain a motion that supports leave free
-  TouchingBodies(std::vector<TouchingBody>, std::vector<TouchingPair>);
+  TouchingBodies(const std::vector<TouchingBody>&, std::vector<TouchingPair>);
   ~TouchingBodies();
   /// @param loads  independent freedoms of each body [N, N m]
   /// @throws std::runtime_error  the loads pull a body away from everything that could hold it

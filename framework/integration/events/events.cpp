@@ -239,7 +239,7 @@ std::string Events::again_and_again() const {
 EventOutcome Events::act(const EventInStep& event, Step& step, double wish) {
   Wishes& wishes = wishes_[places_[event.at].group];
   (event.watch.direction == Direction::rising ? wishes.of_rising : wishes.of_falling) = wish;
-  const EventOutcome out = group(event.at).act(places_[event.at].event, step, to_[event.at]);
+  EventOutcome out = group(event.at).act(places_[event.at].event, step, to_[event.at]);
   spent_[event.at] = !event.watch.level && ask(event.at).direction == event.watch.direction;  // groups track level events themselves
   return out;
 }

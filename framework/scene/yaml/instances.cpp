@@ -128,7 +128,7 @@ class Expansion {
     if (const Yaml* instances = item_of(part.written, "instances")) {
       check_instances(*instances, part);
       for (const Yaml& entry : instances->items)
-        each_copy(entry, part.path + "instances.", part.scope, [&](Yaml one) { lay_instance(one, part); });
+        each_copy(entry, part.path + "instances.", part.scope, [&](const Yaml& one) { lay_instance(one, part); });
     }
   }
 

@@ -169,7 +169,7 @@ void place_body(Spot body, const Placing& placing) {
 }
 
 /// x and y, or one of them if the other does not affect it.
-void place_plane(Spot start, const char* both, const char* x, const char* y, const Dimension& of, const Placing& placing) {
+void place_plane(const Spot& start, const char* both, const char* x, const char* y, const Dimension& of, const Placing& placing) {
   const auto placed = [&](const Pair& p) { return of.time == 0 ? placing.point(p) : placing.vector(p); };
   if (start.has(both)) set(start.at(both), placed(start.at(both).node.pair(of)));
   const bool has_x = start.has(x), has_y = start.has(y);

@@ -103,7 +103,7 @@ const std::array<KindKeys, 3> body_kinds{
     {{"rigid", {"points", "profiles", "pose", "colour"}}, {"beam", beside_elements}, {"plate", beside_elements}}};
 
 std::string read_colour(const Node& node) {
-  const std::string colour = node.text("a colour such as steelblue or \"#4682b4\"");
+  std::string colour = node.text("a colour such as steelblue or \"#4682b4\"");
   const std::vector<std::string> known = colour_names();
   if (rgb_of(colour)) return colour;
   const std::string near = nearest(colour, known);

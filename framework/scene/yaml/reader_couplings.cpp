@@ -192,7 +192,7 @@ bool says_present(const Node& node) {
 }
 
 Law read_after_present(const Node& node, const Dimension& expected, double until) {
-  const Law law = law_at_present(node, expected, 0), more = law_at_present(node, expected, 1);
+  Law law = law_at_present(node, expected, 0), more = law_at_present(node, expected, 1);
   constexpr double rounding = 1e-9;
   for (const double t : {0.0, 0.37, 5.1})
     if (!(std::abs(more.at(t).value - law.at(t).value - 1) < rounding) || !(std::abs(more.at(t).rate - law.at(t).rate) < rounding))

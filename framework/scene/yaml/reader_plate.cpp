@@ -79,7 +79,7 @@ Link read_link(const Node& node) {
   check_keys(node, std::string(plate_keys) + ".link");
   const std::size_t kind = which_kind(node, link_kinds);
   const Node shape = node.at(link_kinds[kind].kind);
-  const Link link = read_shape(shape, kind);
+  Link link = read_shape(shape, kind);
   try {
     validate(link);
   } catch (const std::invalid_argument& error) {

@@ -146,7 +146,7 @@ const std::vector<ScenePoint>* points_of(const std::string& body, const Scene& s
 
 // A point that exists; a body alone means the origin of its axes.
 PointRef read_known_point(const Node& node, const Scene& scene) {
-  const PointRef ref = read_point_ref(node);
+  PointRef ref = read_point_ref(node);
   const std::vector<ScenePoint>* points = points_of(ref.body, scene);
   std::vector<std::string> known;
   if (!points) {

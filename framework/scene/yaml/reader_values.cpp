@@ -122,7 +122,7 @@ void must_be_finite(const Node& node, const Law& law, Smoothness smoothness, dou
 }
 
 std::string checked_name(const Node& node) {
-  const std::string name = node.name();
+  std::string name = node.name();
   const bool bad_end = name.empty() || name.front() == ' ' || name.back() == ' ';
   if (bad_end || name.size() > 80 || name.find_first_of(".,;\"'[]{}/\\\n\r\t") != std::string::npos)
     node.fail("\"" + name + "\" cannot be a name; use letters, digits, spaces, - and _, at most 80");
@@ -146,7 +146,7 @@ void check_own_point(const Node& node, const std::string& name, const SceneBody&
 }
 
 std::string read_own_point(const Node& node, const SceneBody& body) {
-  const std::string name = node.text("the name of a point of the body");
+  std::string name = node.text("the name of a point of the body");
   check_own_point(node, name, body);
   return name;
 }
@@ -163,7 +163,7 @@ std::pair<PointRef, PointRef> read_ends(const Node& node, const std::string& rem
 }
 
 Law read_time_law(const Node& node, const Dimension& expected, Smoothness smoothness, const std::filesystem::path& folder, double until) {
-  const Law law = node.is_map() ? read_table_law(node, expected, smoothness, folder, until) : node.law(expected);
+  Law law = node.is_map() ? read_table_law(node, expected, smoothness, folder, until) : node.law(expected);
   must_be_finite(node, law, smoothness, until);
   return law;
 }

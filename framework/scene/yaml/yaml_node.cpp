@@ -134,7 +134,7 @@ bool Node::yes() const {
 }
 
 std::string Node::one_of(std::span<const std::string> choices) const {
-  const std::string written = text(listed(choices));
+  std::string written = text(listed(choices));
   if (std::ranges::find(choices, written) == choices.end())
     fail(shown() + " must be " + listed(choices) + "." + (nearest(written, choices).empty() ? "" : did_you_mean(written, choices)));
   return written;

@@ -114,7 +114,7 @@ class Reading {
   /// A name must follow.
   std::string need(const char* kind, const Names& names) {
     words_.take_any({"at", "of", "in", "on", "by"});
-    if (const std::string name = words_.take_name(names); !name.empty()) return name;
+    if (std::string name = words_.take_name(names); !name.empty()) return name;
     const std::string rest = words_.rest();
     if (rest.empty()) fail(std::string("it does not say of which ") + kind + "." + described(measurables_));
     fail("\"" + rest + "\" begins with no " + kind + " of this scene." +

@@ -248,7 +248,7 @@ class Shooting {
   /// The multipliers, and how far each may be off, to first order: |row of V^-1| |error| |column of V| for the eigenvectors V.
   void take_multipliers(const BoundedDerivative& derivative, Cycle& out) const {
     const Eigen::EigenSolver<MatrixXd> solver(derivative.value);
-    const Eigen::VectorXcd all = solver.eigenvalues();
+    const Eigen::VectorXcd& all = solver.eigenvalues();
     const Eigen::MatrixXcd V = solver.eigenvectors();
     const MatrixXd rows = V.fullPivLu().inverse().cwiseAbs();
     const VectorXd errors = (rows * derivative.error * V.cwiseAbs()).diagonal();

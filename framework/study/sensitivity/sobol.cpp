@@ -32,7 +32,7 @@ FirstAndTotal estimate(const SobolValues& v, std::size_t input, const std::vecto
 
 Share share_with_interval(double value, std::vector<double> drawn) {
   std::ranges::sort(drawn);
-  const auto at = [&](double p) { return drawn[static_cast<std::size_t>(p * static_cast<double>(drawn.size() - 1) + 0.5)]; };
+  const auto at = [&](double p) { return drawn[static_cast<std::size_t>(std::lround(p * static_cast<double>(drawn.size() - 1)))]; };
   return {value, at(0.025), at(0.975)};
 }
 

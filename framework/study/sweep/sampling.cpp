@@ -64,7 +64,7 @@ Texts values(const Node& node) {
 }
 
 std::vector<Node> named(const Node& section) {
-  const std::vector<Node> entries =
+  std::vector<Node> entries =
       section.entries(std::string("names of parameters (or paths) and their values: {clearance: ") + how_values_look + "}");
   if (entries.empty()) section.fail("names nothing to vary; add for example clearance: [0.01 mm, 0.1 mm]");
   return entries;

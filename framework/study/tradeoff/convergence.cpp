@@ -24,14 +24,11 @@ Ladder validate_ladder(const std::vector<double>& values, double cap, double sca
   const double late = std::max(before, tiny) / std::max(last, tiny);
   const double fall = std::max(mean, n > 2 ? late : mean);
   out.falling = !out.rounding && fall >= 2 && last <= 0.5 * *std::max_element(d.begin(), d.end() - 1);
-  if (out.rounding) {
-    out.error = std::max(last, before);
-  } else if (out.falling) {
+  out.error = std::max(last, before);
+  if (out.falling) {
     out.ratio = fall;
     const double counted = std::clamp(mean, 2.0, cap);
     out.error = 3 * std::max(last, before / cap) / (counted - 1);
-  } else {
-    out.error = std::max(last, before);
   }
   return out;
 }
