@@ -88,7 +88,7 @@ ExportedFmu export_fmu(const FmuOrder& order) {
                     scene.run.until,
                     scene.run.tolerance,
                     scene.output.every > 0 ? scene.output.every : scene.run.until / 1000};
-    const std::vector<fs::path> paths = noted.paths();
+    const std::vector<fs::path>& paths = noted.paths();
     files = scene_files(order.scene, paths);
   }
   out.contents.token = token_of(out.contents, files);
