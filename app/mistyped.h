@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "app/failure.h"
-
 namespace pintle::app {
 
 /// The command or option that was probably meant, if the command line has an unknown name; otherwise empty. @param app  after its parse
@@ -15,7 +13,7 @@ std::string mistyped(const CLI::App& app, int argc, char** argv);
 int end_of(const CLI::App& app, const CLI::ParseError&, int argc, char** argv);
 
 /// Reads the command line, then does what a program of one command is for.
-/// @returns the exit code of f(), or that of a wrong command line or of the exception of f, which are reported
+/// @returns the exit code of f(), or that of a wrong command line, which is reported
 template <class F>
 int parse_and_run(CLI::App& app, int argc, char** argv, const F& f) {
   try {
@@ -23,7 +21,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const F& f) {
   } catch (const CLI::ParseError& e) {
     return end_of(app, e, argc, argv);
   }
-  return exit_code_of(f);
+  return f();
 }
 
 }  // namespace pintle::app

@@ -219,12 +219,8 @@ void validate_ending(const std::string& name, const fs::path& file) {
     throw std::invalid_argument(file.string() + ": a picture ends in .png; films are made by pintle film");
 }
 
-}  // namespace
-
 /// argv[0] is "pintle film" or "pintle picture" if it was started by the program pintle.
-int main(int argc, char** argv) {
-  app::leave_failed_writes_to_us();
-  app::end_on_signals();
+int carry_out(int argc, char** argv) {
   const std::string name = fs::path(argv[0]).filename().string();
   const bool film = name == "pintle film";
   CLI::App command(film ? "Makes a film of a run, from the frames of its animation." : "Draws a frame of a run, or a field of a body.",
@@ -241,4 +237,12 @@ int main(int argc, char** argv) {
       throw SceneError(e.what());  // the command line is wrong
     }
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  app::leave_failed_writes_to_us();
+  app::end_on_signals();
+  return app::exit_code_of([&] { return carry_out(argc, argv); });
 }

@@ -46,12 +46,7 @@ int export_scene(const FmuOrder& order, bool quiet) {
   return ok;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  leave_failed_writes_to_us();
-  end_on_signals();
-  hold_library_threads();
+int carry_out(int argc, char** argv) {
   CLI::App command("Exports a scene as a co-simulation unit with event mode (FMI 3.0), which other programs step.", "pintle fmu");
   FmuOrder order;
   Options options;
@@ -84,4 +79,13 @@ int main(int argc, char** argv) {
     if (!order.out.empty() && ending_of(order.out) != ".fmu") throw SceneError("--out " + out + ": a unit is called NAME.fmu");
     return export_scene(order, quiet);
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  leave_failed_writes_to_us();
+  end_on_signals();
+  hold_library_threads();
+  return exit_code_of([&] { return carry_out(argc, argv); });
 }

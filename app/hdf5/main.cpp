@@ -62,11 +62,7 @@ int convert(const fs::path& directory, const fs::path& file, bool quiet) {
   return ok;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  leave_failed_writes_to_us();
-  end_on_signals();
+int carry_out(int argc, char** argv) {
   CLI::App command("Turns the tables of results into one HDF5 file", "pintle hdf5");
   std::string directory, out;
   bool quiet = false;
@@ -82,4 +78,12 @@ int main(int argc, char** argv) {
     const fs::path folder = directory;
     return convert(folder, out.empty() ? folder / "results.h5" : fs::path(out), quiet);
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  leave_failed_writes_to_us();
+  end_on_signals();
+  return exit_code_of([&] { return carry_out(argc, argv); });
 }

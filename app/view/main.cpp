@@ -28,12 +28,7 @@ int view(const std::string& scene, const std::vector<std::string>& set, int port
   return ok;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  leave_failed_writes_to_us();
-  end_on_signals();
-  hold_library_threads();
+int carry_out(int argc, char** argv) {
   CLI::App command(
       "Shows a scene in the browser while it is being written: assembled, with its degrees of freedom, to be dragged through its motion.",
       "pintle view");
@@ -51,4 +46,13 @@ int main(int argc, char** argv) {
       "The page is served to this machine only, under an address that nobody can guess, and nothing is written. Bodies are rigid\n"
       "there, drivers are released, clearances are closed. Exit codes: see pintle --help\n");
   return parse_and_run(command, argc, argv, [&] { return view(scene, set, port); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  leave_failed_writes_to_us();
+  end_on_signals();
+  hold_library_threads();
+  return exit_code_of([&] { return carry_out(argc, argv); });
 }
