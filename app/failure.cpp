@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "app/options.h"
 #include "app/progress.h"
@@ -58,7 +59,10 @@ int report_failure() {
                        trouble);
   } catch (const std::exception& e) {
     const bool says_where = std::strstr(e.what(), "the results are in") != nullptr;
-    std::cerr << "pintle: " << e.what() << (says_where ? "" : where_results_are()) << "\n";
+    const auto* of_system = dynamic_cast<const std::system_error*>(&e);
+    const bool no_thread = of_system && of_system->code() == std::errc::resource_unavailable_try_again;
+    std::cerr << "pintle: " << e.what() << (no_thread ? "; allow more processes (ulimit -u) or memory" : "")
+              << (says_where ? "" : where_results_are()) << "\n";
     return trouble;
   }
 }

@@ -252,6 +252,7 @@ int nonlinear(const Options& options) {
     end = run_nonlinear(study, out, settings, [&](const Underway& far) { now = far; });
   }
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
+  if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
   if (!end.whole) {
     std::cerr << study.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
               << study.size() << " values; the same command continues from here\n";

@@ -4,9 +4,11 @@
 #include <sys/random.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -117,10 +119,20 @@ ViewServer::~ViewServer() = default;
 std::string ViewServer::address() const { return "http://127.0.0.1:" + std::to_string(server_->port) + "/" + server_->token + "/"; }
 
 void ViewServer::serve(const std::function<bool()>& stop) {
-  std::thread serving([this] { server_->http.listen_after_bind(); });
-  while (!stop()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::exception_ptr trouble;
+  std::atomic<bool> over = false;
+  std::thread serving([&] {
+    try {
+      server_->http.listen_after_bind();  // starts threads of its own
+    } catch (...) {
+      trouble = std::current_exception();
+    }
+    over = true;
+  });
+  while (!over && !stop()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   server_->http.stop();
   serving.join();
+  if (trouble) std::rethrow_exception(trouble);
 }
 
 }  // namespace pintle::app

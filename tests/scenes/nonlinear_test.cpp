@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scenes/nonlinear_study.h"
+#include "tests/unit/scarce_threads.h"
 
 namespace pintle {
 namespace {
@@ -54,6 +55,34 @@ TEST(Nonlinear, ExponentsOfALimitCycleAreZeroWithinTheirErrors) {
     EXPECT_NEAR(zero.value, 0, zero.error) << over;
     EXPECT_LT(zero.error, 2 * std::log(7) / over) << over;
   }
+}
+
+TEST(Nonlinear, FollowsItsValuesInTheThreadsThatCanBeStartedAndSaysSo) {
+  const SweepFolder folder;
+  const std::string study =
+      "section: {every: 2*pi/omega, record: [block.x], transient: 2, returns: 3}\nover: {omega: [2, 2.1, 2.2]}\n"
+      "direction: from start\n";
+  follow_study(folder, impact_oscillator, study);
+  const std::string plenty = contents(folder / "out/section.csv");
+  for (const int allowed : {0, 1, 2}) {
+    fs::remove_all(folder / "out");
+    SweepSettings settings;
+    settings.threads = 3;
+    const Nonlinear read = read_nonlinear(folder / "study.yaml");
+    SweepEnd end;
+    {
+      const ScarceThreads scarce(allowed);
+      end = run_nonlinear(read, folder / "out", settings);
+    }
+    EXPECT_TRUE(end.whole) << allowed;
+    EXPECT_EQ(contents(folder / "out/section.csv"), plenty) << allowed;
+    EXPECT_TRUE(end.shortage.starts_with(std::to_string(allowed) + " of 3 threads could be started")) << end.shortage;
+  }
+  fs::remove_all(folder / "out");
+  SweepSettings stopping;
+  stopping.progress = [](const SweepCount&) { return false; };
+  const ScarceThreads scarce(0);
+  EXPECT_FALSE(run_nonlinear(read_nonlinear(folder / "study.yaml"), folder / "out", stopping).whole);
 }
 
 TEST(Nonlinear, ABouncingBallDoublesItsPeriodAtTheClosedForm) {

@@ -16,6 +16,7 @@
 #include "framework/common/processor_time.h"
 #include "framework/study/sweep/study_folder.h"
 #include "framework/study/sweep/task_queue.h"
+#include "framework/study/sweep/worker_pool.h"
 
 namespace pintle {
 
@@ -39,26 +40,47 @@ class ChainWorkers {
     queue_.close();
   }
 
-  void work(const SweepSettings& settings, const std::function<void(const Underway&)>& far, SweepCount& count) {
+  void work(const SweepSettings& settings, const std::function<void(const Underway&)>& far, SweepEnd& end) {
     const auto begin = wall_clock::now();
-    std::vector<std::thread> threads;
-    const int most = static_cast<int>(std::min(static_cast<std::size_t>(settings.threads), chains_.size()));
-    running_ = most;
-    for (int k = 0; k < most; ++k) threads.emplace_back([this, k] { draw(k); });
+    const auto look = [&] {
+      count(end.count);
+      end.count.seconds = seconds_since(begin);
+    };
+    const auto report = [&] {
+      look();
+      if (far) far(underway());
+      if (settings.progress && !settings.progress(end.count)) stopped_ = true, queue_.clear();
+    };
+    end.shortage = start(static_cast<int>(std::min(static_cast<std::size_t>(settings.threads), chains_.size())));
+    if (threads_.empty()) {
+      report_ = report;
+      ++running_;
+      draw(0);
+    }
     while (running_ > 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(seconds_since(begin) < 1 ? 5 : 50));
-      look(count);
-      count.seconds = seconds_since(begin);
-      if (far) far(underway());
-      if (settings.progress && !settings.progress(count)) stopped_ = true, queue_.clear();
+      report();
     }
-    for (std::thread& thread : threads) thread.join();
-    look(count);
-    count.seconds = seconds_since(begin);
+    for (std::thread& thread : threads_) thread.join();
+    look();
     if (trouble_) std::rethrow_exception(trouble_);
   }
 
  private:
+  /// @returns why fewer threads could be started; empty: all could
+  std::string start(int most) {
+    for (int k = 0; k < most; ++k) {
+      ++running_;
+      try {
+        threads_.emplace_back([this, k] { draw(k); });
+      } catch (const std::exception& error) {
+        --running_;
+        return shortage_of_threads(threads_.size(), most, error.what());
+      }
+    }
+    return {};
+  }
+
   Underway underway() {
     const std::lock_guard lock(mutex_);
     Underway out;
@@ -66,7 +88,7 @@ class ChainWorkers {
     return out;
   }
 
-  void look(SweepCount& count) {
+  void count(SweepCount& count) {
     const std::lock_guard lock(mutex_);
     count.done = done_, count.trouble = troubled_, count.busy = busy_;
   }
@@ -127,6 +149,7 @@ class ChainWorkers {
     row.number = number;
     const OrbitLimits limits{.seconds = study_.sweep.limits.seconds, .go_on = [&](double share, const std::string& at) {
                                set_progress(number, Far{share, at});
+                               if (report_) report_();
                                return !stopped_;
                              }};
     try {
@@ -149,6 +172,8 @@ class ChainWorkers {
   std::map<std::size_t, Row> ended_;
   TaskQueue queue_;
   BodyStore bodies_;
+  std::vector<std::thread> threads_;
+  std::function<void()> report_;  ///< called by the motion itself where there is no thread
   std::atomic<bool> stopped_ = false;
   std::atomic<int> running_ = 0;
   std::mutex mutex_;  ///< protects the members below
@@ -191,7 +216,7 @@ SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const Swe
   const auto ended = [&] { return read_journals(folder, study.sweep.print, study.size()); };
   const std::vector<Row> before = ended();
   end.count.before = static_cast<std::size_t>(std::ranges::count_if(before, [](const Row& row) { return !lacked_memory(row); }));
-  ChainWorkers(study, *journal, before).work(settings, far, end.count);
+  ChainWorkers(study, *journal, before).work(settings, far, end);
   end.rows = ended();
   end.whole = end.rows.size() == study.size();
   if (end.whole) write_results(study, folder, end.rows);

@@ -8,15 +8,19 @@
 
 namespace pintle {
 
+std::string shortage_of_threads(std::size_t started, int asked, const char* why) {
+  return std::to_string(started) + " of " + std::to_string(asked) + " threads could be started (" + why + "), " +
+         (started == 0 ? "the cases are run one by one" : "these run the cases") +
+         "; allow more processes (ulimit -u) or memory, or use fewer threads (--threads)";
+}
+
 WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesystem::path& folder, int rank, int threads)
     : sweep_(sweep), journal_(journal), folder_(folder / "curves"), rank_(rank) {
   if (!sweep.keep.empty()) std::filesystem::create_directories(folder_);
   try {
     start(threads);
   } catch (const std::exception& error) {
-    shortage_ = std::to_string(threads_.size()) + " of " + std::to_string(threads) + " threads could be started (" + error.what() + "), " +
-                (threads_.empty() ? "the cases are run one by one" : "these run the cases") +
-                "; allow more processes (ulimit -u) or memory, or use fewer threads (--threads)";
+    shortage_ = shortage_of_threads(threads_.size(), threads, error.what());
   }
 }
 

@@ -16,6 +16,9 @@
 
 namespace pintle {
 
+/// What is said where only some threads of those asked for could be started, and why.
+std::string shortage_of_threads(std::size_t started, int asked, const char* why);
+
 /// Worker threads of one process that draw cases from a task queue, run them and write them to a journal. If the system refuses some of
 /// them, the others do the work; if it refuses all, the caller does (`work_here`).
 class WorkerPool {
