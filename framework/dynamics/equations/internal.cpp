@@ -109,7 +109,7 @@ void follow_internal_states(const System& system, Equations& eq, const State& st
       const OwnRates now = motion.at_states(own);
       InternalVector left(owner.n);
       for (int k = 0; k < owner.n; ++k)
-        left[k] = now.rate[at(k)] - (weight == internal_at_rest ? 0 : (own[k] - base[owner.begin + k]) / weight);
+        left[k] = now.rate[at(k)] - (base ? (own[k] - base[owner.begin + k]) / weight : 0);
       const InternalVector change = internal_change(now.g_x, weight, left);
       double largest = 0;
       for (int k = 0; k < owner.n; ++k) {

@@ -11,7 +11,7 @@ InternalTangent internal_tangent(const System&, const State&, const Equations&, 
 std::array<int, 2> markers_of(const System&, const InternalStates&);
 
 /// Solves x = base + weight g(p, ṗ, x, t) for the internal states of every owner by Newton's method, starting from the given x. With
-/// internal_at_rest it solves g = 0, and base is not read. After speed. Allocates nothing.
+/// internal_at_rest it solves g = 0, and base is null. After speed. Allocates nothing.
 /// @param state  its time and which contacts are closed   @param base, x  n_x numbers each
 void follow_internal_states(const System&, Equations&, const State& state, double weight, const double* base, double* x);
 

@@ -26,7 +26,7 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
                         unit.cwiseInverse().cwiseProduct(weight).asDiagonal();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm(rank, m);
   least_norm.compute(rows);
-  const VectorXd x = weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
+  VectorXd x = weight.cwiseProduct(least_norm.solve(svd.matrixU().leftCols(rank).transpose() * unit.cwiseProduct(rhs)));
   if (contacts.empty() || rank == m) return x;
   // Orthonormal basis, in x/weight, of the forces that change no rate.
   Eigen::HouseholderQR<MatrixXd> basis(m, m - rank);
