@@ -280,6 +280,15 @@ TEST_P(Undisturbed, RunsEndTheSameWhateverIsWritten) {
   }
   EXPECT_EQ(ends[0], ends[1]);
   EXPECT_EQ(rows[0], rows[1]);
+
+  for (const SceneBody& b : scene_.bodies) scene_.output.points.push_back({b.name, "", {}});
+  Model recording = build(scene_);
+  if (GetParam().scheme) GetParam().scheme(recording.scheme);
+  Listeners listeners;
+  listeners.state = [&](const SavedState& s) { ends.push_back(s.memory); };
+  Assembly assembly = assemble(scene_, recording);
+  simulate(scene_, recording, assembly, listeners);
+  EXPECT_EQ(ends.back(), ends[0]) << "with points";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Undisturbed, testing::ValuesIn(cases()),
