@@ -53,10 +53,10 @@ int report_failure() {
     report_lack_of_memory();
     return trouble;
   } catch (const std::filesystem::filesystem_error& e) {
-    return failed_with((e.path1().string() + ": cannot be read (" + e.code().message() +
-                        "); check its permissions and those of the folders above it" + where_results_are())
-                           .c_str(),
-                       trouble);
+    const bool denied = e.code() == std::errc::permission_denied || e.code() == std::errc::operation_not_permitted;
+    const std::string why = denied ? "cannot be read (" + e.code().message() + "); check its permissions and those of the folders above it"
+                                   : e.code().message();
+    return failed_with((e.path1().string() + ": " + why + where_results_are()).c_str(), trouble);
   } catch (const std::exception& e) {
     const bool says_where = std::strstr(e.what(), "the results are in") != nullptr;
     const auto* of_system = dynamic_cast<const std::system_error*>(&e);

@@ -57,7 +57,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("inverse", "Find the driving torques and joint forces of a driven mechanism"), inverse},
       {app.add_subcommand("linearize", "Find natural frequencies, damping and state-space matrices about a state"), linearize},
       {app.add_subcommand("sweep", "Run many cases of a scene into one table, by threads, MPI or a job array"), sweep},
-      {app.add_subcommand("merge", "Join the parts of a sweep to one table"), merge},
+      {app.add_subcommand("merge", "Join the parts of a sweep into one table"), merge},
       {app.add_subcommand("fit", "Find parameters that reach a goal, within limits"), fit},
       {app.add_subcommand("sensitivity", "Find how measures depend on parameters and their tolerances"), sensitivity},
       {app.add_subcommand("nonlinear", "Find Poincare sections, bifurcation diagrams and Lyapunov exponents"), nonlinear},

@@ -32,7 +32,7 @@ struct TaperedBar {
 };
 /// Three eyes at the given centres, connected by the tangents of their outer circles (the convex hull). Holes "eye 1", "eye 2", "eye 3";
 /// the outline is "outline".
-struct Triangle {  // NOLINT(bugprone-reserved-identifier): in what the compiler adds
+struct Triangle {  // NOLINT(bugprone-reserved-identifier): a false positive of the check
   Eigen::Vector2d center[3];
   Eye eye[3];
 };

@@ -14,7 +14,7 @@ namespace pintle::app {
 
 namespace {
 
-/// Columns of text, though one be empty or hold names such as "12". Of any other column the values tell.
+/// Columns that are text even where they are empty or hold names such as "12". The type of any other column follows from its values.
 bool is_text_by_nature(const std::string& table, const std::string& heading) {
   static const std::map<std::string_view, std::vector<std::string_view>> columns{{"A", {"rate of"}},
                                                                                  {"B", {"rate of"}},
@@ -34,6 +34,7 @@ bool is_text_by_nature(const std::string& table, const std::string& heading) {
                                                                                  {"shapes", {"coordinate"}},
                                                                                  {"statics", {"quantity"}},
                                                                                  {"sweep", {"status", "reason"}},
+                                                                                 {"sweep-part", {"status", "reason"}},
                                                                                  {"sweep-so-far", {"status", "reason"}},
                                                                                  {"timings", {"process.thread"}},
                                                                                  {"tradeoff", {"status", "role", "reason"}},

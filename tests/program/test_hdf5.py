@@ -207,21 +207,22 @@ class Hdf5(unittest.TestCase):
         (self.place / "orbit.yaml").write_text("scene: s.yaml\nover: {m1: [1 kg, 2 kg]}\ndirection: both\n"
                                                "section: {every: 10 ms, record: {a: rod.angle}, transient: 0, returns: 3}\n")
         varied, seen = {("tradeoff", "finer")}, set()
-        for command, file in (("run", "s.yaml"), ("statics", "s.yaml"), ("linearize", "s.yaml"), ("sweep", "sweep.yaml"), ("fit", "fit.yaml"),
-                              ("sensitivity", "scatter.yaml"), ("tradeoff", "trade.yaml"), ("nonlinear", "orbit.yaml")):
-            done = self.say(command, file, "--out", command, "-q")
+        for name, file, *part in (("run", "s.yaml"), ("statics", "s.yaml"), ("linearize", "s.yaml"), ("sweep", "sweep.yaml"),
+                                  ("part", "sweep.yaml", "--shard", "1/1"), ("fit", "fit.yaml"), ("sensitivity", "scatter.yaml"), ("tradeoff", "trade.yaml"), ("nonlinear", "orbit.yaml")):
+            command = "sweep" if part else name
+            done = self.say(command, file, *part, "--out", name, "-q")
             self.assertIn(done.returncode, (0, 4), done.stderr)
-            whole = self.place / command
+            whole = self.place / name
             kinds = []
-            for folder in (whole, self.folder({t.name: t.read_text().partition("\n")[0] + "\n" for t in whole.glob("*.csv")}, command + "-bare")):
+            for folder in (whole, self.folder({t.name: t.read_text().partition("\n")[0] + "\n" for t in whole.glob("*.csv")}, name + "-bare")):
                 self.assertEqual(self.say("hdf5", folder, "all.h5").returncode, 0)
                 with h5py.File(self.place / "all.h5", "r") as h5:
                     kinds.append({(t, c): h5[t][c].dtype for t in h5 if isinstance(h5[t], h5py.Group) for c in h5[t]})
             for column in kinds[0].keys() - varied:
                 self.assertEqual(kinds[0][column], kinds[1][column], (command, column))
                 seen |= {column} if kinds[0][column] != numpy.float64 else set()
-        for column in (("events", "joint"), ("actions", "did"), ("sweep", "reason"), ("timings", "process.thread"), ("values", "reason"),
-                       ("statics", "quantity")):
+        for column in (("events", "joint"), ("actions", "did"), ("sweep", "reason"), ("sweep-part", "reason"), ("timings", "process.thread"),
+                       ("values", "reason"), ("statics", "quantity")):
             self.assertIn(column, seen)
         points = self.converted(self.folder({"points.csv": "point,x [m]\n12,0.5\n013,1\n"}, "points"))
         self.assertEqual([p.decode() for p in points["points/point"][:]], ["12", "013"])
@@ -260,7 +261,7 @@ class Hdf5(unittest.TestCase):
             self.assertEqual([f.name for f in cut.iterdir()], ["t.csv"])
         self.folder({"run.json": "{}"}, "none")
         for words, code, said in ((["none"], 1, "none: has no tables (.csv)"), (["missing"], 1, "missing: there is no such folder"),
-                                  (["results/t.csv"], 1, "results/t.csv: is no folder"), (["results", "t.csv"], 2, "t.csv: an HDF5 file is called NAME.h5"),
+                                  (["results/t.csv"], 1, "results/t.csv: is not a folder"), (["results", "t.csv"], 2, "t.csv: an HDF5 file is called NAME.h5"),
                                   (["results", "no/t.h5"], 1, "no/t.h5: cannot be written"), ([], 2, "results is required")):
             done = self.say("hdf5", *words)
             self.assertEqual(done.returncode, code, words)

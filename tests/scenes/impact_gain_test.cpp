@@ -27,7 +27,7 @@ double gained(const Whole& w) {
 struct Pendulum {
   double a = 16.8 * std::numbers::pi / 180, b = 27.1 * std::numbers::pi / 180, u = -0.68, v = -0.911, e = 0.563, mu = 0.45;
 
-  std::string scene(const std::string& law) const {
+  std::string scene(const std::string& law, const std::string& method = "dopri5") const {
     return "gravity: [0, 0]\n"
            "ground: {points: {O: [0, 0]}, profiles: {floor: {path: [[-5, -d], [5, -d]], material: right}}}\n"
            "parameters: {d: " +
@@ -42,7 +42,7 @@ struct Pendulum {
            "}}\n"
            "start: {one: {angle: " +
            number(a - std::numbers::pi / 2) + ", speed: " + number(u) + "}, two: {angle: " + number(b - std::numbers::pi / 2) +
-           ", speed: " + number(v) + "}}\nrun: {until: 2 us, method: dopri5}\noutput: {every: 1 us, frames: 0}\n";
+           ", speed: " + number(v) + "}}\nrun: {until: 2 us, method: " + method + "}\noutput: {every: 1 us, frames: 0}\n";
   }
   double gain() const {
     const double m = 4. / 3, k = std::cos(a - b) / 2, l = 1. / 3, det = m * l - k * k;
@@ -73,6 +73,38 @@ TEST(ImpactGain, DoesNotComeByPoissonsLaw) {
   ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
   ASSERT_FALSE(w.run.impacts.empty());
   EXPECT_EQ(gained(w), 0);
+  EXPECT_EQ(warning_of_gain(w), "");
+}
+
+// However short the steps.
+TEST(ImpactGain, OfNewtonsLawIsNotAnErrorOfTheSteps) {
+  for (const char* step : {"{moreau: {step: 0.2 us}}", "{moreau: {step: 0.02 us}}"}) {
+    const Whole w = run(Pendulum{}.scene("", step));
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    EXPECT_NEAR(gained(w), Pendulum{}.gain(), 1e-4);
+    const std::string warning = warning_of_gain(w);
+    EXPECT_NE(warning.find("if that changes nothing: Newton's law"), std::string::npos) << warning;
+  }
+}
+
+// A rod falls and turns onto discs at its two ends: by Poisson's law energy goes from one contact to the other within the impact, which as a
+// whole takes some.
+TEST(ImpactGain, IsNotWhatOneContactOfAnImpactGivesToTheOther) {
+  const Whole w =
+      run("gravity: [0, 0]\n"
+          "ground: {profiles: {floor: {path: [[-5, -0.1], [5, -0.1]], material: right}}}\n"
+          "bodies: {rod: {rigid: {mass: 1 kg, inertia: 1/12}, profiles: {left: {disc: [-0.5, 0], radius: 0.1 m}, "
+          "right: {disc: [0.5, 0], radius: 0.1 m}}}}\n"
+          "contacts:\n"
+          "  a: {between: [rod.left, ground.floor], model: impact, restitution: 0.3, restitution law: poisson}\n"
+          "  b: {between: [rod.right, ground.floor], model: impact, restitution: 0.9, restitution law: poisson}\n"
+          "start: {rod: {vy: -0.5, speed: -1}}\n"
+          "run: {until: 1 ms, method: dopri5}\noutput: {every: 1 ms, frames: 0}\n");
+  ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+  ASSERT_EQ(w.run.impacts.size(), 2u);
+  EXPECT_GT(gained(w), 0.01);
+  EXPECT_EQ(w.run.impacts[0].begin, w.run.impacts[1].begin);
+  EXPECT_GT(w.run.impacts[0].lost + w.run.impacts[1].lost, 0.1);
   EXPECT_EQ(warning_of_gain(w), "");
 }
 

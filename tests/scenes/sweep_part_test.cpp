@@ -137,7 +137,7 @@ TEST(SweepPart, IsMergedFromElsewhereWithoutTheStudy) {
   fs::remove(folder / "scene.yaml");
   merge(parts, folder / "merged");
   expect_same(folder / "whole", folder / "merged");
-  const std::string timings = contents(folder / "merged/timings.csv");  // processes are numbered through
+  const std::string timings = contents(folder / "merged/timings.csv");  // processes are numbered consecutively across all parts
   EXPECT_NE(timings.find("\n1,0.0,"), std::string::npos) << timings;
   EXPECT_NE(timings.find("\n2,1.0,"), std::string::npos) << timings;
 }
@@ -198,8 +198,8 @@ TEST(SweepPart, PartsThatAreNotAllPartsOfOneStudyAreRefused) {
   pintle_test::expect_says(refusal_of({p[0], p[1], p[2], p[3], p[4], p[5], p[6]}), {"part 8 of 8 is missing", "run it"});
   pintle_test::expect_says(refusal_of({p[0], p[1], p[0]}), {"is part 1 of 8, and so is", "leave one of them out"});
   pintle_test::expect_says(refusal_of({p[0], of_two[1]}), {"is part 2 of 2, but ", " is part 1 of 8", "of one division"});
-  pintle_test::expect_says(refusal_of({p[0], folder / "whole"}), {"holds all cases", "leave it out"});
-  pintle_test::expect_says(refusal_of({folder / "none"}), {"none: is no folder", "--shard I/N"});
+  pintle_test::expect_says(refusal_of({p[0], folder / "whole"}), {"has no part.json", "leave it out"});
+  pintle_test::expect_says(refusal_of({folder / "none"}), {"none: is not a folder", "--shard I/N"});
   pintle_test::expect_says(refusal_of({folder / "."}), {"holds no part", "--shard I/N"});
   pintle_test::expect_says(refusal_of({}), {"no part"});
   Sweep other = sweep_in(folder, grid + "# changed\n");
@@ -241,7 +241,7 @@ TEST(SweepPart, ADamagedOrChangedPartIsRefused) {
     replace_in(folder, c.file, c.piece, c.by);
     const std::string said = refusal_of(parts);
     pintle_test::expect_says(said, {c.says, "; "});
-    if (c.file == "journal-0.txt") pintle_test::expect_says(said, {"run the part again: pintle sweep", "--shard 1/2"});
+    if (c.file == "journal-0.txt") pintle_test::expect_says(said, {"run the part again: pintle sweep", "--shard 1/2 --out " + parts[0].string()});
     EXPECT_EQ(said.find("run the sweep again"), std::string::npos) << said;
   }
 }
@@ -258,6 +258,18 @@ TEST(SweepPart, ACurveThatIsLackingIsRefused) {
   }
   fs::remove(parts[0] / "curves/case-1.csv");
   pintle_test::expect_says(refusal_of(parts), {"curves: lacks a curve of case 1", "run the part again"});
+}
+
+TEST(SweepPart, ACaseThatFailsAtItsStartHasACurveWithoutRows) {
+  const SweepFolder folder;
+  folder.write("scene.yaml",
+               "parameters: {w: 1 rad/s}\nbodies: {rod: {rigid: {mass: 1 kg, inertia: 1}}}\nstart: {rod: {speed: w}}\nrun: {until: 1 ms}\n");
+  folder.write("study.yaml", head + "measure: {turn: final angle of rod}\nsweep: {grid: {w: [1 rad/s, 1e200 rad/s]}}\nkeep: [angle of rod]\n");
+  const std::vector<fs::path> parts = parts_in(folder, read_sweep(folder / "study.yaml"), 2);
+  EXPECT_EQ(std::ranges::count(contents(parts[1] / "curves/case-2.csv"), '\n'), 1);
+  EXPECT_EQ(refusal_of(parts), "accepted");
+  std::ofstream(parts[0] / "curves/case-1.csv", std::ios::binary) << contents(parts[1] / "curves/case-2.csv");
+  pintle_test::expect_says(refusal_of(parts), {"case-1.csv: is empty or torn"});
 }
 
 TEST(SweepPart, IsWrittenAsOneOfMany) {

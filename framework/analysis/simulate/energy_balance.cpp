@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "framework/common/text.h"
@@ -44,22 +45,42 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
                          for_finer_books(scheme));
 }
 
-// An impact takes energy from the motion. Steps through an impact, or Newton's law with friction (Kane 1984), can add some instead: the
-// ledger closes, because it counts a negative loss.
+/// What may have made an impact at this contact add energy, and what to do about it.
+std::string reason_of_gain(const ContactPair& pair, const Scheme& scheme) {
+  const std::string steps = "an error of the steps, which falls with their length; shorten moreau.step";
+  const std::string law = pair.rigid->poisson
+                              ? "restitution can do so where several contacts that differ in it are struck at once; give them one"
+                              : "Newton's law of restitution can do so with friction, or where several contacts are struck at "
+                                "once; take restitution law: poisson";
+  if (!(scheme.fixed_step > 0)) return law;
+  return pair.friction ? steps + ", and if that changes nothing: " + law + " and another method" : steps;
+}
+
+// An impact takes energy from the motion, that of all contacts struck at one instant together. Steps through an impact, or Newton's law with
+// friction (Kane 1984), can add some instead: the ledger closes, because it counts a negative loss.
 void warn_of_gains(const System& system, const Scheme& scheme, Run& run) {
-  double gained = 0, most = 0;
-  int where = -1;
+  struct Struck {
+    double lost = 0, least = 0;
+    int where = -1;  ///< the contact that lost least
+  };
+  std::map<double, Struck> instants;
   for (const Impact& impact : run.impacts) {
-    const ContactPair& pair = system.contacts[static_cast<std::size_t>(impact.contact)];
-    if (!is_rigid(pair) || !(impact.lost < 0)) continue;
-    gained -= impact.lost;
-    if (-impact.lost > most) most = -impact.lost, where = impact.contact;
+    if (!is_rigid(system.contacts[static_cast<std::size_t>(impact.contact)])) continue;
+    Struck& at = instants[impact.begin];
+    at.lost += impact.lost;
+    if (at.where < 0 || impact.lost < at.least) at.least = impact.lost, at.where = impact.contact;
+  }
+  double gained = 0;
+  Struck worst;
+  for (const auto& [begin, at] : instants) {
+    gained += std::max(0.0, -at.lost);
+    if (at.lost < worst.lost) worst = at;
   }
   if (!(gained > run.ledger_bound * run.energy_in_play + run.ledger_floor)) return;
+  const auto where = static_cast<std::size_t>(worst.where);
   run.warnings.push_back("impacts added " + number_text(gained, 3) + " J to the motion, " + number_text(gained / run.energy_in_play, 2) +
-                         " of the energy in play, most of it at \"" + system.contact_names[static_cast<std::size_t>(where)] + "\": " +
-                         (scheme.fixed_step > 0 ? "an error of the steps, which falls with their length; shorten moreau.step"
-                                                : "Newton's law of restitution can do so with friction; take restitution law: poisson"));
+                         " of the energy in play, most of it at \"" + system.contact_names[where] +
+                         "\": " + reason_of_gain(system.contacts[where], scheme));
 }
 
 }  // namespace

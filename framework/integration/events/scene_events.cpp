@@ -206,12 +206,15 @@ bool SceneEvents::hardly_left(int event, const Step& step, const DenseOutput& mo
   return step.h == 0 || std::abs(guard(event, motion.at(step.from.state.t + step.h / 2)).value) <= guard_still;
 }
 
-// A start may be where an earlier run located the event, as well as its clock could tell.
+// A start may be where an earlier run located the event, to the resolution of its time.
 void SceneEvents::start(Step& step) {
-  constexpr double last_digits = 4.5e-16;  // two of the time
+  constexpr double last_digits = 4.5e-16;  // two to four units in the last place of the time
   const State &state = step.to.state, next = extrapolated(step.to, guard_ahead);
+  const Eigen::Index moving = 2 * system_.n();
+  State begun = state;
+  begun.y.head(moving) = next.y.head(moving);
   see(state);
-  see(next);  // what begins to move has a size too
+  see(begun);  // what begins to move has a size too
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value, rate = (all_of(event, next).value - now) / guard_ahead;
     const bool on_level = std::abs(now) <= std::max(guard_near, last_digits * std::abs(rate * state.t));

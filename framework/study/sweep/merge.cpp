@@ -5,6 +5,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "files/files.h"
@@ -38,9 +39,11 @@ std::string text_in_part(const fs::path& path) {
 Found found_in(const fs::path& folder) {
   const auto fail = [&](const std::string& why) { throw SceneError(folder.string(), {}, why); };
   const fs::path file = folder / "part.json";
-  if (!fs::is_directory(folder)) fail("is no folder; name the folders that pintle sweep STUDY --shard I/N wrote");
+  if (!fs::is_directory(folder)) fail("is not a folder; name the folders that pintle sweep STUDY --shard I/N wrote");
   if (!fs::exists(file))
-    fail(fs::exists(journal_path(folder, 0)) ? "holds all cases of a study, not a part of a sweep: there is nothing to merge; leave it out"
+    fail(fs::exists(journal_path(folder, 0)) ? "has no part.json: it is a whole sweep, or a part that ended early or was not copied whole; "
+                                               "continue it with the command that began it, "
+                                               "copy it again, or leave it out"
                                              : "holds no part of a sweep; name the folders that pintle sweep STUDY --shard I/N wrote");
   Found out{folder, read_part_file(file.string(), text_in_part(file))};
   if (out.file.version != PINTLE_VERSION)
@@ -94,6 +97,9 @@ std::string shell_word(const std::string& name) {
 std::string command_for(const PartFile& file, std::size_t number) {
   return "pintle sweep " + shell_word(file.file) + " --shard " + std::to_string(number) + "/" + std::to_string(file.part.count);
 }
+std::string command_for(const Found& part) {
+  return command_for(part.file, part.file.part.number) + " --out " + shell_word(part.folder.string());
+}
 
 constexpr const char* and_set = ", with the --set of the other parts if they had any";
 
@@ -123,8 +129,7 @@ void read_rows(Found& part, std::vector<std::string>& notes) {
     throw std::runtime_error(part.folder.string() + ": a process still works on " + part_text(part.file.part) +
                              "; merge when all parts have ended");
   try {
-    const std::string again = "remove " + shell_word(part.folder.string()) +
-                              " and run the part again: " + command_for(part.file, part.file.part.number) + and_set;
+    const std::string again = "remove " + shell_word(part.folder.string()) + " and run the part again: " + command_for(part) + and_set;
     part.rows = read_journals(part.folder, part.file.print, part.file.cases, &notes, again);
   } catch (const OtherStudy&) {
     throw SceneError(part.folder.string(), {},
@@ -168,8 +173,9 @@ std::size_t case_of(std::string_view name) {
 
 fs::path curves_in(const fs::path& folder) { return folder / "curves"; }
 
-/// Whether a table of numbers has complete rows alone, as many fields in each; a torn file has not.
-bool is_whole_table(std::string_view text) {
+/// Whether a table of numbers has complete rows alone, as many fields in each; a torn file has not. A case that failed at its start has a
+/// heading alone.
+bool is_whole_table(std::string_view text, bool finished) {
   if (text.empty() || text.back() != '\n') return false;
   std::optional<std::ptrdiff_t> commas;
   for (std::size_t begin = text.find('\n') + 1, end = 0; begin < text.size(); begin = end + 1) {
@@ -178,25 +184,28 @@ bool is_whole_table(std::string_view text) {
     if (commas.value_or(here) != here) return false;
     commas = here;
   }
-  return commas.has_value();
+  return commas || !finished;
 }
 
 /// @param each  curves of a finished case: one per situation  @throws SceneError  a finished case lacks one, or one is torn
 void validate_curves(const Found& part, std::size_t each) {
   std::map<std::size_t, std::size_t> curves;
+  std::set<std::size_t> finished;
+  for (const Row& row : part.rows)
+    if (row.status == status_text(Status::finished)) finished.insert(row.number);
   if (fs::is_directory(curves_in(part.folder)))
     for (const std::string& name : names_in(curves_in(part.folder))) {
       if (case_of(name) == 0) continue;
-      if (!is_whole_table(text_in_part(curves_in(part.folder) / name)))
+      if (!is_whole_table(text_in_part(curves_in(part.folder) / name), finished.contains(case_of(name))))
         throw SceneError(
             (curves_in(part.folder) / name).string(), {},
             "is empty or torn; copy the folder of " + part_text(part.file.part) + " again, or remove it and run the part again");
       ++curves[case_of(name)];
     }
-  for (const Row& row : part.rows)
-    if (row.status == status_text(Status::finished) && curves[row.number] < each)
+  for (const std::size_t number : finished)
+    if (curves[number] < each)
       throw SceneError(curves_in(part.folder).string(), {},
-                       "lacks a curve of case " + std::to_string(row.number) + ", which the study keeps; copy the folder of " +
+                       "lacks a curve of case " + std::to_string(number) + ", which the study keeps; copy the folder of " +
                            part_text(part.file.part) + " with all that is in it, or remove it and run the part again");
 }
 
@@ -217,7 +226,7 @@ void validate_finished(const std::vector<Found>& parts) {
   if (count > most) said += "; and " + std::to_string(count - most) + " more parts lack cases";
   if (first)
     throw SceneError(said + ". Finish " + (count == 1 ? "it" : "them") + " with the command that began " + (count == 1 ? "it" : "them") +
-                     ": " + command_for(first->file, first->file.part.number) + " --out " + shell_word(first->folder.string()) + and_set);
+                     ": " + command_for(*first) + and_set);
 }
 
 /// Moves the processes of a part behind those of the parts before. @returns how many there are
@@ -270,7 +279,9 @@ void write_merged(const Merged& merged, const fs::path& folder) {
   write_text(folder / "sweep.json", sweep_json(merged.sweep, merged.end));
   write_text(folder / table_name(merged.sweep), sweep_csv(merged.sweep, merged.end.rows));
   if (merged.curves_of_case == 0) return;
-  fs::create_directory(curves_in(folder));
+  std::error_code error;
+  fs::create_directory(curves_in(folder), error);
+  if (error) throw FileError(curves_in(folder), error.value(), "cannot be made");
   for (std::size_t i = 0; i < merged.folders.size(); ++i) {
     const SweepPart part{i + 1, merged.folders.size()};
     const fs::path from = curves_in(merged.folders[i]);

@@ -38,7 +38,7 @@ SweepPart read_part(const std::string& text) {
   };
   SweepPart out;
   if (slash == std::string::npos || !read_number(all.substr(0, slash), out.number) || !read_number(all.substr(slash + 1), out.count))
-    return fail("is no part of a sweep; write its number and how many there are, for example --shard 3/8" +
+    return fail("is not a part of a sweep; write its number and how many there are, for example --shard 3/8" +
                 std::string(text.empty() || text.starts_with('/') || text.ends_with('/') ? " (is a variable of the script not set?)" : ""));
   if (out.count < 1 || out.count > most_cases)
     return fail("a sweep has from 1 to " + std::to_string(most_cases) + " parts; write for example --shard 3/8");
