@@ -208,7 +208,8 @@ class Hdf5(unittest.TestCase):
                                                "section: {every: 10 ms, record: {a: rod.angle}, transient: 0, returns: 3}\n")
         varied, seen = {("tradeoff", "finer")}, set()
         for name, file, *part in (("run", "s.yaml"), ("statics", "s.yaml"), ("linearize", "s.yaml"), ("sweep", "sweep.yaml"),
-                                  ("part", "sweep.yaml", "--shard", "1/1"), ("fit", "fit.yaml"), ("sensitivity", "scatter.yaml"), ("tradeoff", "trade.yaml"), ("nonlinear", "orbit.yaml")):
+                                  ("part", "sweep.yaml", "--shard", "1/1"), ("fit", "fit.yaml"), ("sensitivity", "scatter.yaml"),
+                                  ("tradeoff", "trade.yaml"), ("nonlinear", "orbit.yaml")):
             command = "sweep" if part else name
             done = self.say(command, file, *part, "--out", name, "-q")
             self.assertIn(done.returncode, (0, 4), done.stderr)
