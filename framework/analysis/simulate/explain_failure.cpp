@@ -46,22 +46,23 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   if (angle > many)
     return "an angle has reached " + number_text(angle, 3) + " rad, whose last digit moves points by " +
            number_text(angle * 2.2e-16 * system.length, 3) + " m; begin again from this state with angles in one turn";
-  const Schur& rows = integrator.sampled().schur;
-  if (integrator.implicit() || system.n() != system.n_rigid() || system.n_rows() == 0) return "";
+  if (system.n() != system.n_rigid() || system.n_rows() == 0) return "";
   const Unlike bodies = most_unlike(system);
+  const bool implicit = integrator.implicit();  // which finds joint forces without the inverse of the masses
+  const double kept = implicit ? 1 : integrator.sampled().schur.kept();
   constexpr double hopeless = 1e12;  // the lighter is lost in sums with the heavier
-  if (!(bodies.ratio > unlike && (rows.kept() < few || bodies.ratio > hopeless))) return "";
+  if (!(bodies.ratio > unlike && (kept < few || bodies.ratio > hopeless))) return "";
+  const std::string leaves = implicit ? "" : ", which leaves " + number_text(kept, 3) + " of what the joint forces are found from";
+  const std::string otherwise = implicit ? "" : ", or take method: generalized-alpha";
   if (bodies.light == bodies.heavy)
     return "the mass of \"" + system.bodies[bodies.light].name +
            "\" and its inertia, over the square of the distance at which it is held, differ by a factor of " +
-           number_text(bodies.ratio, 3) + ", which leaves " + number_text(rows.kept(), 3) +
-           " of what the joint forces are found from; correct the larger or the smaller of them (check their units), or take method: "
-           "generalized-alpha";
+           number_text(bodies.ratio, 3) + leaves + "; correct the larger or the smaller of them (check their units)" + otherwise;
   return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + number_text(1 / bodies.ratio, 3) + " of that of \"" +
-         system.bodies[bodies.heavy].name + "\", at its centre or turning about it, which leaves " + number_text(rows.kept(), 3) +
-         " of what the joint forces are found from; give \"" + system.bodies[bodies.light].name +
-         "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside " +
-         "what it carries, or take method: generalized-alpha";
+         system.bodies[bodies.heavy].name + "\", at its centre or turning about it" + leaves + "; give \"" +
+         system.bodies[bodies.light].name +
+         "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside what it carries" +
+         otherwise;
 }
 
 std::string explain_state(const Scene& scene, const System& system, Integrator& integrator) {
