@@ -28,7 +28,8 @@ void validate_places(const fs::path& directory, const fs::path& file) {
     throw SceneError(file.string() + ": an HDF5 file is called NAME.h5 or NAME.hdf5");
   if (!fs::exists(directory)) throw ResultsError(directory.string() + ": there is no such folder; name a folder of results");
   if (!fs::is_directory(directory))
-    throw ResultsError(directory.string() + ": is not a folder; name the folder of its results, which `pintle run` writes with --out FOLDER");
+    throw ResultsError(directory.string() +
+                       ": is not a folder; name the folder of its results, which `pintle run` writes with --out FOLDER");
   std::error_code unseen;  // reported when the file is written
   if (fs::exists(file, unseen) && !fs::is_regular_file(file, unseen))
     throw std::runtime_error(file.string() + ": is " + (fs::is_directory(file, unseen) ? "a folder" : "not an ordinary file") +
