@@ -300,7 +300,8 @@ void validate_start_journals(const Scene& scene, const System& system) {
     if (found == known.end())
       throw SceneError(scene.file, s.place, quoted(s.joint) + " is not a joint with clearance." + did_you_mean(s.joint, known));
     const ContactPair& pair = system.contacts[static_cast<std::size_t>(found - known.begin())];
-    if (!is_held(pair) && std::hypot(s.eccentricity[0], s.eccentricity[1]) > pair.gap.clearance() + deepest_valid * journal_radius(pair.gap))
+    if (!is_held(pair) &&
+        std::hypot(s.eccentricity[0], s.eccentricity[1]) > pair.gap.clearance() + deepest_valid * journal_radius(pair.gap))
       throw SceneError(scene.file, s.place,
                        "the eccentricity puts the journal into the wall by more than a tenth of its radius, where no contact law is valid; "
                        "the clearance is " +

@@ -241,7 +241,8 @@ TEST(SweepPart, ADamagedOrChangedPartIsRefused) {
     replace_in(folder, c.file, c.piece, c.by);
     const std::string said = refusal_of(parts);
     pintle_test::expect_says(said, {c.says, "; "});
-    if (c.file == "journal-0.txt") pintle_test::expect_says(said, {"run the part again: pintle sweep", "--shard 1/2 --out " + parts[0].string()});
+    if (c.file == "journal-0.txt")
+      pintle_test::expect_says(said, {"run the part again: pintle sweep", "--shard 1/2 --out " + parts[0].string()});
     EXPECT_EQ(said.find("run the sweep again"), std::string::npos) << said;
   }
 }
@@ -262,9 +263,11 @@ TEST(SweepPart, ACurveThatIsLackingIsRefused) {
 
 TEST(SweepPart, ACaseThatFailsAtItsStartHasACurveWithoutRows) {
   const SweepFolder folder;
-  folder.write("scene.yaml",
-               "parameters: {w: 1 rad/s}\nbodies: {rod: {rigid: {mass: 1 kg, inertia: 1}}}\nstart: {rod: {speed: w}}\nrun: {until: 1 ms}\n");
-  folder.write("study.yaml", head + "measure: {turn: final angle of rod}\nsweep: {grid: {w: [1 rad/s, 1e200 rad/s]}}\nkeep: [angle of rod]\n");
+  folder.write(
+      "scene.yaml",
+      "parameters: {w: 1 rad/s}\nbodies: {rod: {rigid: {mass: 1 kg, inertia: 1}}}\nstart: {rod: {speed: w}}\nrun: {until: 1 ms}\n");
+  folder.write("study.yaml",
+               head + "measure: {turn: final angle of rod}\nsweep: {grid: {w: [1 rad/s, 1e200 rad/s]}}\nkeep: [angle of rod]\n");
   const std::vector<fs::path> parts = parts_in(folder, read_sweep(folder / "study.yaml"), 2);
   EXPECT_EQ(std::ranges::count(contents(parts[1] / "curves/case-2.csv"), '\n'), 1);
   EXPECT_EQ(refusal_of(parts), "accepted");

@@ -108,8 +108,7 @@ void follow_internal_states(const System& system, Equations& eq, const State& st
     for (int i = 0; i < most; ++i) {
       const OwnRates now = motion.at_states(own);
       InternalVector left(owner.n);
-      for (int k = 0; k < owner.n; ++k)
-        left[k] = now.rate[at(k)] - (base ? (own[k] - base[owner.begin + k]) / weight : 0);
+      for (int k = 0; k < owner.n; ++k) left[k] = now.rate[at(k)] - (base ? (own[k] - base[owner.begin + k]) / weight : 0);
       const InternalVector change = internal_change(now.g_x, weight, left);
       double largest = 0;
       for (int k = 0; k < owner.n; ++k) {
