@@ -92,10 +92,10 @@ std::string ticks(const Axes& axes, bool horizontal, bool log) {
   const double a = horizontal ? axes.x0 : axes.y0, b = horizontal ? axes.x1 : axes.y1;
   std::string s;
   if (log && b - a < 2.2) {  // too few complete decades to read numbers between them
-    for (double decade = std::floor(a); decade <= b; ++decade)
+    for (int decade = static_cast<int>(std::floor(a)); decade <= b; ++decade)
       for (const double m : {1.0, 2.0, 5.0})
         if (const double at = decade + std::log10(m); at >= a - 1e-9 && at <= b + 1e-9)
-          s += tick(axes, at, horizontal, printed("%.0fe%.0f", m, decade));
+          s += tick(axes, at, horizontal, printed("%.0fe%d", m, decade));
     return s;
   }
   const double step = log ? std::max(1.0, std::round(tick_step(b - a))) : tick_step(b - a);
@@ -194,9 +194,10 @@ std::string svg(const std::vector<Panel>& panels, std::size_t columns) {
       "font-family='sans-serif' font-size='12'>\n<rect width='100%%' height='100%%' "
       "fill='white'/>\n",
       w, h, w, h);
-  for (std::size_t k = 0; k < panels.size(); ++k)
-    s += draw(panels[k], panel_width * static_cast<double>(k % columns), panel_height * static_cast<double>(k / columns),
-              static_cast<int>(k));
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const std::size_t column = k % columns, row = k / columns;
+    s += draw(panels[k], panel_width * static_cast<double>(column), panel_height * static_cast<double>(row), static_cast<int>(k));
+  }
   return s + "</svg>\n";
 }
 
