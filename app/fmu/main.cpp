@@ -84,6 +84,7 @@ int carry_out(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  shed_library_threads(argv);
   leave_failed_writes_to_us();
   end_on_signals();
   hold_library_threads();

@@ -10,6 +10,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "framework/common/file_names.h"
+#include "framework/common/library_threads.h"
 #include "framework/common/text.h"
 #include "framework/output/results_directory.h"
 #include "framework/report/csv_reader.h"
@@ -84,6 +85,7 @@ int carry_out(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  shed_library_threads(argv);
   leave_failed_writes_to_us();
   end_on_signals();
   return exit_code_of([&] { return carry_out(argc, argv); });

@@ -1,6 +1,10 @@
 #include "framework/common/library_threads.h"
 
 #include <dlfcn.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 namespace pintle {
 
@@ -12,7 +16,19 @@ Function* sought(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
+bool is_limited(decltype(RLIMIT_AS) resource) {
+  struct rlimit limit {};
+  return ::getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 }  // namespace
+
+void shed_library_threads(char** argv) {
+  constexpr const char* threads = "OPENBLAS_NUM_THREADS";
+  if (std::getenv(threads) || !(is_limited(RLIMIT_AS) || is_limited(RLIMIT_DATA))) return;
+  ::setenv(threads, "1", 1);
+  ::execv("/proc/self/exe", argv);  // returns where it cannot: then the program goes on as it is
+}
 
 void hold_library_threads() {
   static const bool blas = [] {

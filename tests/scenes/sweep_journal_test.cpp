@@ -10,6 +10,7 @@
 #include "framework/scene/error.h"
 #include "framework/study/sweep/journal.h"
 #include "framework/study/sweep/sweep.h"
+#include "tests/refusal.h"
 #include "tests/scenes/sweep_folder.h"
 
 namespace pintle::sweep_journal_test {
@@ -98,6 +99,19 @@ std::string refusal(const SweepFolder& folder) {
     return error.what();
   }
   return "";
+}
+
+TEST(SweepJournal, AFolderThatHasLostItIsTold) {
+  const SweepFolder folder;
+  folder.write("scene.yaml", pendulum_scene());
+  folder.write("study.yaml", "scene: scene.yaml\nmeasure: {turn: final angle of rod}\nsweep: {grid: {mass: [1 kg, 2 kg]}}\n");
+  const Sweep sweep = read_sweep(folder / "study.yaml");
+  run_sweep(sweep, folder / "out", {1, nullptr, {}});
+  fs::remove(journal_path(folder / "out", 0));
+  EXPECT_NE(pintle_test::refusal_by([&] {
+              run_sweep(sweep, folder / "out", {1, nullptr, {}});
+            }).find("has lost its journal-0.txt"),
+            std::string::npos);
 }
 
 TEST(SweepJournal, SaysWhatWasTornAndWhatWasDone) {

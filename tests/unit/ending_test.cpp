@@ -192,6 +192,19 @@ TEST(Ending, MemoryThatRowsWouldFillDoesNotGrowWithThem) {
   EXPECT_EQ(end.code, 0) << end.complained;
 }
 
+// OpenBLAS starts threads as it is loaded, and each wants 134 MB: one that gets none asks for ever, and the end of the program waits for it.
+TEST(Ending, ALimitOnMemoryDoesNotMakeLibraryThreadsHoldTheProgram) {
+#if defined(PINTLE_SANITIZED)
+  GTEST_SKIP() << "the sanitizers reserve more than the limit";
+#endif
+  const Folder folder;
+  for (const char* limit : {"-v 100000", "-v 150000", "-d 100000"}) {
+    const Ended end = run(folder.path() / "log", {"/bin/bash", "-c", std::string("ulimit ") + limit + "; exec timeout -s KILL 60 \"$@\"",
+                                                  "bash", PINTLE_PROGRAM, "--version"});
+    EXPECT_EQ(end.code, 0) << limit << end.complained;
+  }
+}
+
 // Shapes of a mesh come from BLAS, which sums in another order for each number of threads.
 TEST(Ending, ARunIsTheSameByAnyNumberOfThreadsAndGoesOnByAnother) {
   const Folder folder;

@@ -26,7 +26,10 @@ void open_folder(const fs::path& folder) {
     const fs::directory_iterator entries(folder);
     if (!fs::exists(journal_path(folder, 0)) &&
         !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); }))
-      throw SceneError(folder.string(), {}, "exists already and contains no study; name another directory with --out");
+      throw SceneError(folder.string(), {},
+                       fs::exists(folder / "study.yaml")
+                           ? "has lost its journal-0.txt, which says what was done; remove the folder, or name another directory with --out"
+                           : "exists already and contains no study; name another directory with --out");
   }
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another place with --out");
