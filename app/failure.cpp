@@ -12,6 +12,7 @@
 
 #include "app/options.h"
 #include "app/progress.h"
+#include "framework/common/library_threads.h"
 #include "framework/scene/error.h"
 #include "meshes/limits.h"
 
@@ -64,6 +65,17 @@ int report_failure() {
     std::cerr << "pintle: " << e.what() << (no_thread ? "; allow more processes (ulimit -u) or memory" : "")
               << (says_where ? "" : where_results_are()) << "\n";
     return trouble;
+  }
+}
+
+int run_program(int argc, char** argv, int (*carry_out)(int, char**)) {
+  shed_library_threads(argv);
+  leave_failed_writes_to_us();
+  end_on_signals();
+  try {
+    return carry_out(argc, argv);
+  } catch (...) {
+    return report_failure();
   }
 }
 

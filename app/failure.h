@@ -9,14 +9,8 @@ int report_failure();
 /// Prints that there was not enough memory, for what, and where the results are. Allocates none.
 void report_lack_of_memory();
 
-/// @returns the exit code of f(), or that of the exception that it throws, which is reported
-template <class F>
-int exit_code_of(const F& f) {
-  try {
-    return f();
-  } catch (...) {
-    return report_failure();
-  }
-}
+/// What the main function of each program of the command line does: prepares signals, failed writes and the threads of libraries.
+/// @returns the exit code of carry_out, or that of the exception that it throws, which is reported
+int run_program(int argc, char** argv, int (*carry_out)(int, char**));
 
 }  // namespace pintle::app

@@ -109,11 +109,8 @@ int carry_out(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  shed_library_threads(argv);
-  leave_failed_writes_to_us();
-  end_on_signals();
   tell_of_crashes();
   keep_memory_in_reserve();
   std::set_terminate(end_without_memory);
-  return exit_code_of([&] { return carry_out(argc, argv); });
+  return run_program(argc, argv, carry_out);
 }

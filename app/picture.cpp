@@ -21,7 +21,6 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "framework/common/file_names.h"
-#include "framework/common/library_threads.h"
 #include "framework/scene/error.h"
 
 namespace {
@@ -242,9 +241,4 @@ int carry_out(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  shed_library_threads(argv);
-  app::leave_failed_writes_to_us();
-  app::end_on_signals();
-  return app::exit_code_of([&] { return carry_out(argc, argv); });
-}
+int main(int argc, char** argv) { return app::run_program(argc, argv, carry_out); }

@@ -47,6 +47,7 @@ int export_scene(const FmuOrder& order, bool quiet) {
 }
 
 int carry_out(int argc, char** argv) {
+  hold_library_threads();
   CLI::App command("Exports a scene as a co-simulation unit with event mode (FMI 3.0), which other programs step.", "pintle fmu");
   FmuOrder order;
   Options options;
@@ -83,10 +84,4 @@ int carry_out(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  shed_library_threads(argv);
-  leave_failed_writes_to_us();
-  end_on_signals();
-  hold_library_threads();
-  return exit_code_of([&] { return carry_out(argc, argv); });
-}
+int main(int argc, char** argv) { return run_program(argc, argv, carry_out); }

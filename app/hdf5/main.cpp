@@ -10,7 +10,6 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "framework/common/file_names.h"
-#include "framework/common/library_threads.h"
 #include "framework/common/text.h"
 #include "framework/output/results_directory.h"
 #include "framework/report/csv_reader.h"
@@ -84,9 +83,4 @@ int carry_out(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  shed_library_threads(argv);
-  leave_failed_writes_to_us();
-  end_on_signals();
-  return exit_code_of([&] { return carry_out(argc, argv); });
-}
+int main(int argc, char** argv) { return run_program(argc, argv, carry_out); }

@@ -29,6 +29,7 @@ int view(const std::string& scene, const std::vector<std::string>& set, int port
 }
 
 int carry_out(int argc, char** argv) {
+  hold_library_threads();
   CLI::App command(
       "Shows a scene in the browser while it is being written: assembled, with its degrees of freedom, to be dragged through its motion.",
       "pintle view");
@@ -50,10 +51,4 @@ int carry_out(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  shed_library_threads(argv);
-  leave_failed_writes_to_us();
-  end_on_signals();
-  hold_library_threads();
-  return exit_code_of([&] { return carry_out(argc, argv); });
-}
+int main(int argc, char** argv) { return run_program(argc, argv, carry_out); }
