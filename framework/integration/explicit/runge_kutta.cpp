@@ -82,7 +82,7 @@ bool RungeKutta::strayed_near_singular(const Step& step, const Equations& eq) co
 bool RungeKutta::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) {
   constexpr double safety = 10;  // the estimate uses differences of stages
   if (!stages_.attempt(system_, h, step, eq)) return false;
-  if (stages_.weak() && stages_.constraints() == Constraints::projection && stages_.closest() < safety * pivot_known(step))
+  if (stages_.constraints() == Constraints::projection && stages_.closest() < safety * pivot_known(step))
     for (const int begin : {0, system_.n()}) keep_allowed(system_, eq, step.error.data() + begin);
   return step.error.allFinite();
 }

@@ -40,8 +40,6 @@ class Stages {
   bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
   /// Smallest pivot of the last attempt's stages; 0: a stage was in a singular configuration.
   double closest() const { return least_; }
-  /// A stage of the last attempt was in or near a singular configuration, or bodies have very different inertias.
-  bool weak() const { return weak_; }
   /// h times the fastest rate in the last attempt, from the difference between its last inner stage at the end time and the step's end
   /// [HairerWanner1996, IV.2]; 0 for a pair without such a stage.
   double stiffness(const System&, const Step&) const;
