@@ -175,6 +175,7 @@ Run Simulation::finish() {
   warn_of_pushing(system_, run_);
   warn_of_lifting(system_, run_);
   warn_of_stiffness(scene_, model_, integrator_.held_by_stability(), run_);
+  warn_of_coarse_forces(model_, integrator_.implicit(), run_);
   slow_.warn(system_, run_.energy_in_play, run_.warnings);
   undecided_.warn(run_.warnings);
   monitor_.warn(run_.warnings);
