@@ -37,7 +37,8 @@ struct Bounds : testing::Test {
   void plate(const string& file) const {
     write("s/plate.yaml", "bodies: {arm: {plate: {file: " + file +
                               ", thickness: 5 mm, young: 207 GPa, poisson: 0.3, density: 7850},\n"
-                              "  points: {O: [0, 0]}}}\njoints: {j: {revolute: [ground, arm.O]}}\nrun: {until: 1e-6}\n");
+                              "  points: {O: [0, 0]}}}\njoints: {j: {revolute: [ground, arm.O]}}\nrun: {until: 1e-6}\n"
+                              "output: {states: 5e-7}\n");
   }
   void pendulum(const string& table) const {
     write("s/rod.yaml",
@@ -56,8 +57,8 @@ struct Bounds : testing::Test {
     const int status = pipe ? pclose(pipe) : -1;
     return out + "exit " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
   }
-  string sweep_table(const string& name) const {
-    std::ifstream in(folder / "s" / name / "sweep.csv");
+  string contents(const string& name) const {
+    std::ifstream in(folder / "s" / name);
     return {std::istreambuf_iterator<char>(in), {}};
   }
   fs::path folder;
@@ -104,7 +105,7 @@ TEST_F(Bounds, ASweepRefusesTheCaseAndGoesOn) {
         "sweep: {grid: {bodies.arm.plate.file: [b.geo, a.geo, ../c.geo, endless.geo]}}\n");
   says(pintle("sweep study.yaml -q -o out --threads 2 --mesh-time 1s"), "exit 0");
   EXPECT_FALSE(ran());
-  const string table = sweep_table("out");
+  const string table = contents("out/sweep.csv");
   says(table, "--trust-geo");
   says(table, "--allow-path");
   says(table, "--mesh-time");
@@ -121,6 +122,36 @@ TEST_F(Bounds, RunsAndRestartsReadNothingOutsideTheScenesFolder) {
   const string restart = "run rod.yaml -q --restart allowed/states/00001.state -o ";
   says(pintle(restart + "again"), "lies outside");
   says(pintle(restart + "again --allow-path .."), "exit 0");
+}
+
+// Of a saved run, the drawing needs the same trust again, and a mesh that has become a script is refused like any other.
+TEST_F(Bounds, ARestartRunsNoCommandThatItsScenesFilesAskFor) {
+  const string touch = "SystemCall \"touch " + ran_file() + "\";\n";
+  const string restart = "run plate.yaml -q --restart saved/states/00001.state --set run.until=2e-6 -o again";
+  write("s/a.geo", touch + square);
+  plate("a.geo");
+  says(pintle("run plate.yaml -q -o saved --trust-geo"), "exit 0");
+  ASSERT_TRUE(ran());
+  fs::remove(ran_file());
+  const string untrusted = pintle(restart);
+  says(untrusted, "--trust-geo");
+  says(untrusted, "exit 2");
+  EXPECT_FALSE(ran());
+  says(pintle(restart + " --trust-geo"), "exit 0");
+
+  fs::remove(ran_file());
+  fs::remove_all(folder / "s/saved");
+  write("s/a.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+        "$Elements\n1\n1 3 2 0 1 1 2 3 4\n$EndElements\n");
+  plate("a.msh");
+  says(pintle("run plate.yaml -q -o saved"), "exit 0");
+  write("s/a.msh", touch);
+  fs::remove_all(folder / "s/again");
+  const string replaced = pintle(restart);
+  says(replaced, "a.msh");
+  says(replaced, "exit 2");
+  EXPECT_FALSE(ran());
 }
 
 TEST_F(Bounds, AStudyNamesAScene) {
@@ -148,8 +179,7 @@ TEST_F(Bounds, CtrlCEndsAMeshAtOnce) {
       "kill -INT $p; wait $p; echo ended $? #");
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
   says(said, "ended 6");
-  std::ifstream in(folder / "s/out/journal-0.txt");
-  const string journal{std::istreambuf_iterator<char>(in), {}};
+  const string journal = contents("out/journal-0.txt");
   EXPECT_EQ(journal.find("refused"), string::npos) << "the case that was stopped is run again: " << journal;
 }
 
