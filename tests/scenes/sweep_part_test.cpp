@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <regex>
 #include <set>
@@ -247,18 +248,56 @@ TEST(SweepPart, ADamagedOrChangedPartIsRefused) {
   }
 }
 
-TEST(SweepPart, ACurveThatIsLackingIsRefused) {
-  const SweepFolder folder;
-  const Sweep sweep = sweep_in(folder, grid + "keep: [angle of rod]\n");
-  const std::vector<fs::path> parts = parts_in(folder, sweep, 2);
-  EXPECT_EQ(refusal_of(parts), "accepted");
-  const std::string whole = contents(parts[0] / "curves/case-1.csv");
-  for (const std::string& torn : {std::string(), whole.substr(0, whole.size() / 2), whole + "1\n"}) {
-    std::ofstream(parts[0] / "curves/case-1.csv", std::ios::binary) << torn;
-    pintle_test::expect_says(refusal_of(parts), {"case-1.csv: is empty or torn", "run the part again"});
+/// What may happen to the curve of case 1: its file, and what stands in the message.
+struct Harm {
+  std::function<void(const fs::path&)> harm;
+  std::string says;
+};
+std::vector<Harm> harms() {
+  const auto text = [](const std::function<std::string(const std::string&)>& changed) {
+    return [changed](const fs::path& file) {
+      const std::string now = changed(contents(file));
+      std::ofstream(file, std::ios::binary) << now;
+    };
+  };
+  const std::string torn = "is torn or was changed";
+  return {
+      {text([](const std::string&) { return ""; }), torn},
+      {text([](const std::string& whole) { return whole.substr(0, whole.size() / 2); }), torn},
+      {text([](const std::string& whole) { return whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1); }), torn},
+      {text([](const std::string& whole) { return whole + "1,2\n"; }), torn},
+      {[](const fs::path& file) { fs::copy_file(file.parent_path() / "case-4.csv", file, fs::copy_options::overwrite_existing); }, torn},
+      {[](const fs::path& file) { fs::remove(file); }, "is missing"},
+      {[](const fs::path& file) { fs::remove(file), fs::create_directory(file); }, "is a directory"}};
+}
+
+TEST(SweepPart, ACurveThatIsNotAsItsCaseWroteItIsRefused) {
+  for (const Harm& each : harms()) {
+    const SweepFolder folder;
+    const std::vector<fs::path> parts = parts_in(folder, sweep_in(folder, grid + "keep: [angle of rod]\n"), 2);
+    ASSERT_EQ(refusal_of(parts), "accepted");
+    each.harm(parts[0] / "curves/case-1.csv");
+    pintle_test::expect_says(refusal_of(parts), {"curves/case-1.csv", each.says, "continue the part", "--shard 1/2"});
   }
-  fs::remove(parts[0] / "curves/case-1.csv");
-  pintle_test::expect_says(refusal_of(parts), {"curves: lacks a curve of case 1", "run the part again"});
+}
+
+TEST(SweepPart, ACaseWhoseCurveIsLostIsRunAgain) {
+  for (const Harm& each : harms()) {
+    const SweepFolder folder;
+    Sweep sweep = sweep_in(folder, grid + "keep: [angle of rod]\n");
+    const std::vector<fs::path> parts = parts_in(folder, sweep, 2);
+    const fs::path file = parts[0] / "curves/case-1.csv";
+    const std::string whole = contents(file);
+    each.harm(file);
+    if (fs::is_directory(file)) fs::remove(file);
+    sweep.part = SweepPart{1, 2};
+    const SweepEnd end = run_sweep(sweep, parts[0], {1, nullptr, {}});
+    EXPECT_EQ(end.count.done, 1u);
+    ASSERT_EQ(end.notes.size(), 1u);
+    pintle_test::expect_says(end.notes[0], {"curves/case-1.csv", "its case is run again"});
+    EXPECT_EQ(contents(file), whole);
+    EXPECT_EQ(refusal_of(parts), "accepted");
+  }
 }
 
 TEST(SweepPart, ACaseThatFailsAtItsStartHasACurveWithoutRows) {
@@ -272,7 +311,7 @@ TEST(SweepPart, ACaseThatFailsAtItsStartHasACurveWithoutRows) {
   EXPECT_EQ(std::ranges::count(contents(parts[1] / "curves/case-2.csv"), '\n'), 1);
   EXPECT_EQ(refusal_of(parts), "accepted");
   std::ofstream(parts[0] / "curves/case-1.csv", std::ios::binary) << contents(parts[1] / "curves/case-2.csv");
-  pintle_test::expect_says(refusal_of(parts), {"case-1.csv: is empty or torn"});
+  pintle_test::expect_says(refusal_of(parts), {"case-1.csv is not as its case wrote it"});
 }
 
 TEST(SweepPart, IsWrittenAsOneOfMany) {

@@ -24,6 +24,7 @@
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/common/fingerprint.h"
 #include "framework/scene/error.h"
+#include "framework/study/sweep/curves.h"
 
 namespace pintle {
 
@@ -131,18 +132,20 @@ bool lacked_memory(const Row& row) { return row.status == status_text(Status::ou
 std::string line_of(const Row& r) {
   Json values = Json::array();
   for (double x : r.values) values.push_back(exact(x));
-  return sealed({{"case", r.number},
-                 {"status", r.status},
-                 {"reason", r.reason},
-                 {"values", values},
-                 {"units", r.units},
-                 {"t_end", exact(r.t_end)},
-                 {"unexplained", exact(r.unexplained_share)},
-                 {"steps", r.steps},
-                 {"impacts", r.impacts},
-                 {"worker", r.worker},
-                 {"build", exact(r.build_seconds)},
-                 {"run", exact(r.run_seconds)}});
+  Json row{{"case", r.number},
+           {"status", r.status},
+           {"reason", r.reason},
+           {"values", values},
+           {"units", r.units},
+           {"t_end", exact(r.t_end)},
+           {"unexplained", exact(r.unexplained_share)},
+           {"steps", r.steps},
+           {"impacts", r.impacts},
+           {"worker", r.worker},
+           {"build", exact(r.build_seconds)},
+           {"run", exact(r.run_seconds)}};
+  if (!r.curves.empty()) row["curves"] = r.curves;
+  return sealed(row);
 }
 
 std::optional<Row> row_of(std::string_view line) try {
@@ -156,6 +159,9 @@ std::optional<Row> row_of(std::string_view line) try {
   r.build_seconds = exact(j.at("build")), r.run_seconds = exact(j.at("run"));
   if (!j.at("values").is_array()) return {};
   for (const Json& x : j.at("values")) r.values.push_back(exact(x));
+  if (j.contains("curves")) r.curves = j.at("curves").get<std::map<std::string, std::string>>();
+  for (const auto& [name, print] : r.curves)
+    if (!is_curve_of(r.number, name)) return {};
   return r;
 } catch (const Json::exception&) {  // valid checksum, but not written by line_of
   return {};

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct Row {
   long steps = 0, impacts = 0;
   std::string worker;  ///< "process.thread"; not in the table
   double build_seconds = 0, run_seconds = 0;
+  std::map<std::string, std::string> curves = {};  ///< name of each kept curve and fingerprint of its text
 };
 
 /// Its process ran out of memory, which says nothing about the case: it is run again when the sweep continues.

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <map>
-#include <optional>
-#include <set>
 #include <string>
 
 #include "files/files.h"
@@ -13,6 +10,7 @@
 #include "framework/common/fingerprint.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
+#include "framework/study/sweep/curves.h"
 
 namespace pintle {
 
@@ -159,54 +157,17 @@ void read_study_of(const Found& part, Merged& merged) {
   for (const std::string& name : part.file.measures) out.study.measures.emplace_back().name = name;
   out.study.scene.text = text_in_part(part.folder / "scene.yaml");
   std::from_chars(part.file.study.data(), part.file.study.data() + part.file.study.size(), out.print, 16);
-  if (root.has("keep")) merged.curves_of_case = root.has("situations") ? root.at("situations").keys().size() : 1;
+  merged.keeps_curves = root.has("keep");
 }
 
-/// The number of a case from "case-12.csv" or "case-12-idle.csv"; 0: it is no such name.
-std::size_t case_of(std::string_view name) {
-  constexpr std::string_view begin = "case-";
-  std::size_t out = 0;
-  if (!name.starts_with(begin) || !name.ends_with(".csv")) return 0;
-  const char* const stop = std::from_chars(name.data() + begin.size(), name.data() + name.size(), out).ptr;
-  return *stop == '.' || *stop == '-' ? out : 0;
-}
-
-fs::path curves_in(const fs::path& folder) { return folder / "curves"; }
-
-/// Whether a table of numbers has complete rows alone, as many fields in each; a torn file has not. A case that failed at its start has a
-/// heading alone.
-bool is_whole_table(std::string_view text, bool finished) {
-  if (text.empty() || text.back() != '\n') return false;
-  std::optional<std::ptrdiff_t> commas;
-  for (std::size_t begin = text.find('\n') + 1, end = 0; begin < text.size(); begin = end + 1) {
-    end = text.find('\n', begin);
-    const auto here = std::ranges::count(text.substr(begin, end - begin), ',');
-    if (commas.value_or(here) != here) return false;
-    commas = here;
-  }
-  return commas || !finished;
-}
-
-/// @param each  curves of a finished case: one per situation  @throws SceneError  a finished case lacks one, or one is torn
-void validate_curves(const Found& part, std::size_t each) {
-  std::map<std::size_t, std::size_t> curves;
-  std::set<std::size_t> finished;
+/// @throws SceneError  a curve is not as its case wrote it
+void validate_curves(const Found& part) {
   for (const Row& row : part.rows)
-    if (row.status == status_text(Status::finished)) finished.insert(row.number);
-  if (fs::is_directory(curves_in(part.folder)))
-    for (const std::string& name : names_in(curves_in(part.folder))) {
-      if (case_of(name) == 0) continue;
-      if (!is_whole_table(text_in_part(curves_in(part.folder) / name), finished.contains(case_of(name))))
-        throw SceneError(
-            (curves_in(part.folder) / name).string(), {},
-            "is empty or torn; copy the folder of " + part_text(part.file.part) + " again, or remove it and run the part again");
-      ++curves[case_of(name)];
-    }
-  for (const std::size_t number : finished)
-    if (curves[number] < each)
-      throw SceneError(curves_in(part.folder).string(), {},
-                       "lacks a curve of case " + std::to_string(number) + ", which the study keeps; copy the folder of " +
-                           part_text(part.file.part) + " with all that is in it, or remove it and run the part again");
+    if (const std::string fault = fault_of_curves(part.folder, row); !fault.empty())
+      throw SceneError(
+          fault + "; copy the folder of " + part_text(part.file.part) +
+          " again with all that is in it, or remove that file if it is there and continue the part, which runs its case again: " +
+          command_for(part) + and_set);
 }
 
 /// @throws SceneError  naming all parts that lack cases
@@ -257,7 +218,7 @@ Merged read_parts(const std::vector<fs::path>& folders) {
   read_study_of(parts.front(), out);
   std::size_t processes = 0;
   for (Found& p : parts) {
-    validate_curves(p, out.curves_of_case);
+    validate_curves(p);
     processes += shift_workers(p.rows, processes);
     out.end.rows.insert(out.end.rows.end(), p.rows.begin(), p.rows.end());
     out.folders.push_back(p.folder);
@@ -278,19 +239,15 @@ void write_merged(const Merged& merged, const fs::path& folder) {
   write_text(folder / "timings.csv", timings_csv(merged.end.rows));
   write_text(folder / "sweep.json", sweep_json(merged.sweep, merged.end));
   write_text(folder / table_name(merged.sweep), sweep_csv(merged.sweep, merged.end.rows));
-  if (merged.curves_of_case == 0) return;
+  if (!merged.keeps_curves) return;
   std::error_code error;
   fs::create_directory(curves_in(folder), error);
   if (error) throw FileError(curves_in(folder), error.value(), "cannot be made");
-  for (std::size_t i = 0; i < merged.folders.size(); ++i) {
-    const SweepPart part{i + 1, merged.folders.size()};
-    const fs::path from = curves_in(merged.folders[i]);
-    if (!fs::is_directory(from)) continue;
-    for (const std::string& name : names_in(from)) {
-      if (const std::size_t k = case_of(name); k == 0 || !part.has(k)) continue;
-      write_text(curves_in(folder) / name, text_in_part(from / name));
+  for (const Row& row : merged.end.rows)
+    for (const auto& noted : row.curves) {
+      const std::size_t part = SweepPart::with(row.number, merged.folders.size());
+      write_text(curves_in(folder) / noted.first, read_curve(merged.folders[part - 1], noted));
     }
-  }
 }
 
 }  // namespace pintle

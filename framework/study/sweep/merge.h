@@ -13,7 +13,7 @@ struct Merged {
   Sweep sweep;
   SweepEnd end;                                ///< with the rows of all parts
   std::vector<std::filesystem::path> folders;  ///< of the parts, in their order
-  std::size_t curves_of_case = 0;              ///< how many each finished case has kept
+  bool keeps_curves = false;
 };
 
 /// Reads the folders of all parts, in any order.

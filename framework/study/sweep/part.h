@@ -13,9 +13,10 @@ struct Sweep;
 /// Part `number` of `count`.
 struct SweepPart {
   std::size_t number = 1, count = 1;
-  /// Whether it has case k, from 1. Of `count` consecutive cases each part has one; the next ones are shifted by one part, so that in a
-  /// grid no part has the same value of the last name in all its cases.
-  bool has(std::size_t k) const { return (k - 1 + (k - 1) / count) % count + 1 == number; }
+  /// Number of the part that has case k, from 1. Of `count` consecutive cases each part has one; the next ones are shifted by one part, so
+  /// that in a grid no part has the same value of the last name in all its cases.
+  static std::size_t with(std::size_t k, std::size_t count) { return (k - 1 + (k - 1) / count) % count + 1; }
+  bool has(std::size_t k) const { return with(k, count) == number; }
 };
 
 /// From "3/8". @throws SceneError  it is none: naming --shard and the remedy

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "framework/common/file.h"
+#include "framework/study/sweep/curves.h"
 #include "framework/study/sweep/study_folder.h"
 #include "framework/study/sweep/worker_pool.h"
 
@@ -270,8 +271,11 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
   try {
     journal = open_study_folder(sweep, folder, end.notes);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
-    for (const Row& row : read_journals(folder, sweep.journal_print(), sweep.cases.size(), &end.notes))
-      ended[row.number] = !lacked_memory(row);
+    for (const Row& row : read_journals(folder, sweep.journal_print(), sweep.cases.size(), &end.notes)) {
+      const std::string fault = fault_of_curves(folder, row);
+      if (!fault.empty()) end.notes.push_back(fault + "; its case is run again");
+      ended[row.number] = fault.empty() && !lacked_memory(row);
+    }
     for (std::size_t k = 1; k < ended.size(); ++k)
       if (sweep.has(k) && !ended[k]) numbers.push_back(k);
   } catch (...) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <new>
 
-#include "framework/common/file.h"
-#include "framework/common/file_names.h"
+#include "framework/study/sweep/curves.h"
 
 namespace pintle {
 
@@ -15,8 +14,8 @@ std::string shortage_of_threads(std::size_t started, int asked, const char* why)
 }
 
 WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesystem::path& folder, int rank, int threads)
-    : sweep_(sweep), journal_(journal), folder_(folder / "curves"), rank_(rank) {
-  if (!sweep.keep.empty()) std::filesystem::create_directories(folder_);
+    : sweep_(sweep), journal_(journal), folder_(folder), rank_(rank) {
+  if (!sweep.keep.empty()) std::filesystem::create_directories(curves_in(folder_));
   try {
     start(threads);
   } catch (const std::exception& error) {
@@ -122,9 +121,6 @@ void WorkerPool::run(std::size_t number, int thread) {
     outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
   if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
-  FileNames names;
-  for (const auto& [situation, curves] : outcome.curves)
-    write_text(folder_ / (names.add("case-" + std::to_string(number) + (situation.empty() ? "" : "-" + situation), "") + ".csv"), curves);
   Row row{number,
           outcome.status,
           outcome.reason,
@@ -137,6 +133,7 @@ void WorkerPool::run(std::size_t number, int thread) {
           std::to_string(rank_) + "." + std::to_string(thread),
           outcome.build_seconds,
           outcome.run_seconds};
+  write_curves(outcome.curves, folder_, row);
   journal_.append(row);
   const std::lock_guard lock(mutex_);
   tally_.done += 1;
