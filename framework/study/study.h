@@ -37,7 +37,10 @@ void each_entry(const Node& node, const char* remedy, F f) {
   else if (node.is_list())
     for (const Node& entry : node.list(1, remedy)) f(entry, "");
   else
-    for (const Node& entry : node.entries(remedy)) f(entry, entry.name());
+    for (const Node& entry : node.entries(remedy)) {
+      if (entry.name().find_first_not_of(' ') == std::string::npos) entry.fail("has an empty name; give it one");
+      f(entry, entry.name());
+    }
 }
 
 /// @throws SceneError  it measures nothing, which is allowed only in a study with a goal

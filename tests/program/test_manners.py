@@ -139,7 +139,7 @@ class Manners(unittest.TestCase):
             self.assertRegex(self.say(command, "study.yaml").stderr, "study.yaml: is a study, not a scene: .*sweep")
 
     def test_no_two_columns_of_a_study_have_one_name(self):
-        (self.place / "swing.pintle.yaml").write_text(pendulum.replace("mass: 1 kg", "mass: m1") + "parameters: {m1: 1 kg, steps: 1}\n")
+        (self.place / "swing.pintle.yaml").write_text(pendulum.replace("mass: 1 kg", "mass: m1") + "parameters: {m1: 1 kg, steps: 1, K: 1}\n")
         sweep, fit = "sweep: {grid: {m1: [1 kg, 2 kg]}}\n", "vary: {m1: {from: 1 kg, to: 2 kg}}\ngoal: {minimise: far}\n"
         scatter, trade = "sensitivity: {parameters: {m1: {uniform: 1 g}}}\n", "tradeoff: {error: 1%, axes: {finer: {run.tolerance: [1e-4, 1e-6]}}}\n"
         orbits = "section: {every: 10 ms, record: {NAME: rod.angle}, transient: 0, returns: 3}\n"
@@ -148,10 +148,11 @@ class Manners(unittest.TestCase):
                                               ("fit", measure + fit, ("phase", "goal", "reason", "m1"), "t_end"),
                                               ("sensitivity", measure + scatter, ("steps", "impacts", "m1"), "goal"),
                                               ("tradeoff", measure + trade, ("time", "setting", "finer", "error of far"), "m1"),
-                                              ("nonlinear", orbits, ("t", "return", "period"), "case"),
+                                              ("nonlinear", orbits, ("t", "t [s]", "return"), "case"),
+                                              ("nonlinear", orbits + "orbit: {}\n", ("period", "stability", "modulus 1", "error 3"), "K"),
                                               ("nonlinear", "over: {m1: [1 kg, 2 kg]}\n" + orbits, ("m1",), "steps")):
             for name in taken + (free,):
-                (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\n" + section.replace("NAME", name))
+                (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\n" + section.replace("NAME", f'"{name}"'))
                 done = self.say(command, "study.yaml", "--out", "out-" + command + name.replace(" ", "") + str(len(section)), "-q")
                 with self.subTest(command + " " + name):
                     if name == free:
@@ -160,9 +161,20 @@ class Manners(unittest.TestCase):
                     self.assertEqual(done.returncode, 2, done.stderr)
                     said = f'"{name}" is the name of another column of the study\'s table; choose'
                     self.assertRegex(done.stderr, "study.yaml:[23]: .*" + re.escape(said))
-        for command, section in (("sweep", "sweep: {grid: {steps: [1, 2]}}\n"), ("tradeoff", trade.replace("finer", "time"))):
-            (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\nmeasure: {far: final x of rod}\n" + section)
-            self.assertRegex(self.say(command, "study.yaml", "--out", "none").stderr, 'study.yaml:3: .*"(steps|time)" is the name of another column')
+        far = "measure: {far: final x of rod}\n"
+        for command, section, name in (("sweep", far + "sweep: {grid: {steps: [1, 2]}}\n", "steps"), ("tradeoff", far + trade.replace("finer", "time"), "time"),
+                                       ("tradeoff", far + trade.replace("finer", "error of far"), "error of far"),
+                                       ("nonlinear", orbits + "over: {K: [1, 2]}\n", "K")):
+            (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\n" + section)
+            self.assertRegex(self.say(command, "study.yaml", "--out", "none").stderr, f'study.yaml:[23]: .*"{name}" is the name of another column')
+
+    def test_nothing_is_measured_or_recorded_without_a_name(self):
+        for command, section in (("sweep", 'measure: {"": final x of rod}\nsweep: {grid: {run.until: [1 ms]}}\n'),
+                                 ("nonlinear", 'section: {every: 10 ms, record: {" ": rod.angle}, transient: 0, returns: 3}\n')):
+            (self.place / "study.yaml").write_text("scene: swing.pintle.yaml\n" + section)
+            done = self.say(command, "study.yaml", "--out", "none")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, "study.yaml:2: .*has an empty name; give it one")
 
     def test_one_body_is_not_compared_with_itself(self):
         heavy = pendulum.replace("mass: 1 kg", "mass: 1e300 kg")

@@ -77,6 +77,8 @@ std::vector<LossOfStability> losses_of_stability(const std::vector<FollowedValue
 /// "period doubling (multiplier -1)"
 std::string crossing_words(Crossing);
 
+/// Headings of the tables that the study writes; units of recorded signals are known only with its rows.
+std::vector<std::vector<std::string>> headings_of_tables(const Nonlinear&);
 /// A row for each return; for each value; for each return of a periodic orbit; for each value and time.
 std::string section_csv(const Nonlinear&, const std::vector<Row>& rows);
 std::string values_csv(const Nonlinear&, const std::vector<Row>& rows);

@@ -30,12 +30,62 @@ std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
 
 std::string with_its_unit(const std::string& name, const std::string& unit) { return unit.empty() ? name : name + " [" + unit + "]"; }
 
-/// Headings of the first columns: parameter and direction, if any.
-std::string heading_of_values(const Nonlinear& study) {
-  std::string out;
-  if (study.varies()) out += csv_field(parameter_header(study)) + ",";
-  if (study.order == Order::both) out += "direction,";
+using Headings = std::vector<std::string>;
+
+/// Headings of the first columns: parameter and direction, if any; then others.
+Headings after_values(const Nonlinear& study, const Headings& others) {
+  Headings out;
+  if (study.varies()) out.push_back(parameter_header(study));
+  if (study.order == Order::both) out.emplace_back("direction");
+  out.insert(out.end(), others.begin(), others.end());
   return out;
+}
+
+/// "exponent 1 [1/s]"
+std::string numbered(const char* name, std::size_t j, const char* unit) { return with_its_unit(name + (" " + std::to_string(j)), unit); }
+
+Headings section_headings(const Nonlinear& study, const std::vector<Row>& rows) {
+  Headings out = after_values(study, {"return", "t [s]"});
+  for (const std::string& header : signal_headers(study, rows)) out.push_back(header);
+  return out;
+}
+
+Headings orbit_headings(const Nonlinear& study, const std::vector<Row>& rows, std::size_t multipliers) {
+  Headings out = after_values(study, {"return"});
+  for (const std::string& header : signal_headers(study, rows)) out.push_back(header);
+  for (const char* own : {"period [s]", "least period", "found from", "stability"}) out.emplace_back(own);
+  for (std::size_t j = 1; j <= multipliers; ++j)
+    for (const auto& [name, unit] : {std::pair("modulus", ""), std::pair("argument", "rad"), std::pair("error", "")})
+      out.push_back(numbered(name, j, unit));
+  return out;
+}
+
+std::size_t exponents_of(const Nonlinear& study) {
+  return study.question.lyapunov ? static_cast<std::size_t>(study.question.lyapunov->exponents) : 0;
+}
+
+Headings value_headings(const Nonlinear& study) {
+  Headings out = after_values(study, {"status"});
+  if (study.question.section)
+    for (const char* own : {"returns", "period", "K", "dimension", "impacts a return", "interval [s]", "least approach [m/s]",
+                            "median approach [m/s]", "greatest approach [m/s]", "grazing", "share of time in contact"})
+      out.emplace_back(own);
+  for (std::size_t j = 1; j <= exponents_of(study); ++j)
+    for (const char* own : {"exponent", "standard error"}) out.push_back(numbered(own, j, "1/s"));
+  out.emplace_back("reason");
+  return out;
+}
+
+Headings lyapunov_headings(const Nonlinear& study) {
+  Headings out = after_values(study, {"t [s]"});
+  for (std::size_t j = 1; j <= exponents_of(study); ++j) out.push_back(numbered("exponent", j, "1/s"));
+  return out;
+}
+
+std::string heading_line(const Headings& headings) {
+  std::string out;
+  for (const std::string& each : headings) out += (out.empty() ? "" : ",") + csv_field(each);
+  return out + "\n";
 }
 
 std::string fields_of(const Nonlinear& study, const FollowedValue& value) {
@@ -89,10 +139,17 @@ std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Ro
   return out;
 }
 
+std::vector<std::vector<std::string>> headings_of_tables(const Nonlinear& study) {
+  constexpr std::size_t multipliers = 100;  // only the steps show how many there are
+  std::vector<Headings> out{value_headings(study)};
+  if (study.question.section) out.push_back(section_headings(study, {}));
+  if (study.question.cycle) out.push_back(orbit_headings(study, {}, multipliers));
+  if (study.question.lyapunov) out.push_back(lyapunov_headings(study));
+  return out;
+}
+
 std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
-  std::string out = heading_of_values(study) + "return,t [s]";
-  for (const std::string& header : signal_headers(study, rows)) out += "," + csv_field(header);
-  out += '\n';
+  std::string out = heading_line(section_headings(study, rows));
   for (const FollowedValue& value : followed(study, rows)) {
     const std::string head = fields_of(study, value);
     for (std::size_t k = 0; k < value.orbit.t.size(); ++k) {
@@ -108,12 +165,7 @@ std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   const std::vector<FollowedValue> values = followed(study, rows);
   std::size_t multipliers = 0;
   for (const FollowedValue& value : values) multipliers = std::max(multipliers, value.orbit.cycle.re.size());
-  std::string out = heading_of_values(study) + "return";
-  for (const std::string& header : signal_headers(study, rows)) out += "," + csv_field(header);
-  out += ",period [s],least period,found from,stability";
-  for (std::size_t j = 1; j <= multipliers; ++j)
-    out += ",modulus " + std::to_string(j) + ",argument " + std::to_string(j) + " [rad],error " + std::to_string(j);
-  out += '\n';
+  std::string out = heading_line(orbit_headings(study, rows, multipliers));
   for (const FollowedValue& value : values) {
     const Cycle& cycle = value.orbit.cycle;
     if (!cycle.found()) continue;
@@ -133,15 +185,7 @@ std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
 }
 
 std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
-  const int exponents = study.question.lyapunov ? study.question.lyapunov->exponents : 0;
-  std::string out = heading_of_values(study) + "status";
-  if (study.question.section)
-    out +=
-        ",returns,period,K,dimension,impacts a return,interval [s],least approach [m/s],median approach [m/s],greatest approach "
-        "[m/s],grazing,"
-        "share of time in contact";
-  for (int j = 1; j <= exponents; ++j) out += ",exponent " + std::to_string(j) + " [1/s],standard error " + std::to_string(j) + " [1/s]";
-  out += ",reason\n";
+  std::string out = heading_line(value_headings(study));
   for (const FollowedValue& value : followed(study, rows)) {
     const Orbit& orbit = value.orbit;
     out += fields_of(study, value) + value.status;
@@ -155,7 +199,7 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
                              known(f.most_approach), n > 0 ? f.grazing : none, n > 0 ? f.contact_share : none})
         out += "," + number_exactly(x);
     }
-    for (std::size_t j = 0; j < static_cast<std::size_t>(exponents); ++j) {
+    for (std::size_t j = 0; j < exponents_of(study); ++j) {
       const bool there = j < orbit.exponents.size();
       out += "," + (there ? number_exactly(orbit.exponents[j].value) : "") + "," + (there ? number_exactly(orbit.exponents[j].error) : "");
     }
@@ -199,9 +243,7 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
 }
 
 std::string lyapunov_csv(const Nonlinear& study, const std::vector<Row>& rows) {
-  std::string out = heading_of_values(study) + "t [s]";
-  for (int j = 1; j <= study.question.lyapunov->exponents; ++j) out += ",exponent " + std::to_string(j) + " [1/s]";
-  out += '\n';
+  std::string out = heading_line(lyapunov_headings(study));
   for (const FollowedValue& value : followed(study, rows)) {
     const std::string head = fields_of(study, value);
     for (std::size_t k = 0; k < value.orbit.running_t.size(); ++k) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "framework/build/build.h"
+#include "framework/common/text.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
 #include "framework/study/nonlinear/nonlinear.h"
@@ -100,16 +101,6 @@ SectionQuestion read_section(const Node& node, const ExpressionCheck& expression
   return out;
 }
 
-/// @param varied  the parameter, if any   @throws SceneError  something recorded is called like another column of section.csv or orbits.csv
-void require_other_names(const Node& record, const SectionQuestion& section, const std::vector<std::string>& varied) {
-  std::vector<std::string> columns{"direction", "return", "t", "period", "least period", "found from", "stability"};
-  columns.insert(columns.end(), varied.begin(), varied.end());
-  for (const Recorded& one : section.record) {
-    const Node entry = record.is_map() ? record.at(one.name) : record;
-    if (std::ranges::find(columns, one.name) != columns.end()) entry.fail("\"" + one.name + "\" " + taken_name);
-  }
-}
-
 LyapunovQuestion read_lyapunov(const Node& node, const ExpressionCheck& expressions) {
   check_keys(node, "study.lyapunov");
   LyapunovQuestion out;
@@ -143,6 +134,24 @@ Cases read_over(const Node& root) {
   return cases;
 }
 
+std::string without_units(std::string heading) {
+  while (heading.ends_with(']') && heading.rfind(" [") != std::string::npos) heading.resize(heading.rfind(" ["));
+  return heading;
+}
+
+/// @throws SceneError  the parameter or something recorded is called like another column of a table
+void require_other_names(const Nonlinear& study, const Node& root) {
+  std::vector<std::pair<std::string, Node>> given;
+  if (study.varies()) given.emplace_back(study.sweep.cases.names[0], root.at("over"));
+  if (study.question.section) {
+    const Node record = root.at("section").at("record");
+    for (const Recorded& one : study.question.section->record) given.emplace_back(one.name, record.is_map() ? record.at(one.name) : record);
+  }
+  for (const std::vector<std::string>& table : headings_of_tables(study))
+    for (const auto& [name, node] : given)
+      if (std::ranges::count(table, without_units(name), without_units) > 1) node.fail(quoted(name) + " " + taken_name);
+}
+
 }  // namespace
 
 Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
@@ -166,7 +175,6 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
   if (root.has("section")) out.question.section = read_section(root.at("section"), expressions);
-  if (out.question.section) require_other_names(root.at("section").at("record"), *out.question.section, cases.names);
   if (root.has("orbit")) out.question.cycle = read_cycle(root.at("orbit"), out.question.section);
   if (root.has("lyapunov")) {
     out.question.lyapunov = read_lyapunov(root.at("lyapunov"), expressions);
@@ -179,6 +187,7 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
   Overrides common = recording(out.question);
   for (const auto& limit : step_limit(root)) common.push_back(limit);
   out.sweep = cases_of(file, cases, path, set, common);
+  require_other_names(out, root);
   if (root.has("limit")) out.sweep.limits.seconds = root.at("limit").quantity(dimension::time, rule::positive);
   return out;
 }

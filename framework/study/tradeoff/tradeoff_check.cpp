@@ -91,7 +91,10 @@ void validate_measures(const CaseSource& source, const TradePlan& plan, const st
   std::vector<std::string> varied, columns = own_columns();
   for (const Measure& m : measures)
     for (const char* const error : {"error of ", "reference's error of ", "model's error of "}) columns.push_back(error + m.name);
-  for (const FidelityAxis& axis : plan.axes) columns.push_back(axis.name);
+  for (const FidelityAxis& axis : plan.axes) {
+    for (const Measure& m : measures) require_other_name(axis.name, columns, m.file, m.place);
+    columns.push_back(axis.name);
+  }
   require_other_names(measures, columns);
   for (const FidelityAxis& axis : plan.axes)
     for (const AxisValue& v : axis.values)
