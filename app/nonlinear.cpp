@@ -213,6 +213,18 @@ std::string how_far(const SweepCount& c, const Underway& now) {
   return out + time_left(static_cast<double>(c.done) + now.share, static_cast<double>(c.cases - c.before), c.seconds);
 }
 
+void warn_of_doubts(const Nonlinear& study, const std::vector<FollowedValue>& values) {
+  const auto doubted = [](const FollowedValue& v) { return v.status == "finished" && !v.reason.empty(); };
+  const auto n = std::ranges::count_if(values, doubted);
+  if (n == 0) return;
+  const FollowedValue& first = *std::ranges::find_if(values, doubted);
+  std::cerr << study.sweep.study.file << ": warning: ";
+  if (values.size() > 1)
+    std::cerr << "at " << n << " of " << values.size() << " values, the first " << parameter_header(study) << " = " << first.parameter
+              << ": ";
+  std::cerr << first.reason << "\n";
+}
+
 /// Of values that have not all that was asked for. @returns the exit code
 int exit_after(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   const auto lacks = [](const FollowedValue& v) { return v.status != "finished"; };
@@ -266,6 +278,7 @@ int nonlinear(const Options& options) {
   else if (std::ranges::any_of(values, has_some) && !options.quiet)
     print(study, end, values, out);
   std::cout.flush();
+  warn_of_doubts(study, values);
   return exit_after(study, values);
 }
 

@@ -125,6 +125,18 @@ TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
   EXPECT_NEAR(found[0].value * period, std::log(table.e), 0.02);  // the share of the last, unfinished turn of the pair
 }
 
+// Just below the birth of its orbit the ball comes to rest in each period, where all deviations vanish.
+TEST(Nonlinear, ExponentsOfAMotionThatComesToRestAreDoubted) {
+  const VibratingTable table;
+  const std::string study = "lyapunov: {exponents: 1, every: 2*pi/omega, over: 20*2*pi/omega, transient: 5*2*pi/omega}\n";
+  for (const double gamma : {0.98 * table.birth(), 1.02 * table.birth()}) {
+    const SweepFolder folder;
+    const Followed done =
+        follow_study(folder, table.scene(1.02 * table.birth(), 1), "set: {gamma: " + std::to_string(gamma) + "}\n" + study);
+    EXPECT_EQ(done.values.at(0).reason.find("a contact came to rest") != std::string::npos, gamma < table.birth()) << gamma;
+  }
+}
+
 // Near the doubling they are real and apart, and neighbours take the time that is not counted to turn to the slower one.
 TEST(Nonlinear, ExponentsOfABouncingBallAreThoseOfItsRealMultipliers) {
   const VibratingTable table;

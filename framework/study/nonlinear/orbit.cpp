@@ -98,6 +98,13 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
   return out;
 }
 
+/// Whether a rigid contact has closed after a time, and stayed closed.
+bool came_to_rest(const System& system, const std::vector<Impact>& all, double from) {
+  return std::ranges::any_of(all, [&](const Impact& impact) {
+    return is_rigid(system.contacts[static_cast<std::size_t>(impact.contact)]) && impact.begin > from && !(impact.end <= impact.begin);
+  });
+}
+
 /// The 0–1 test of the first signal. Differences within the section's tolerance count as 0.
 double zero_one_of(const std::vector<std::vector<double>>& signals, double tolerance) {
   std::vector<double> first;
@@ -263,6 +270,9 @@ class Following {
                           .distance = question_.lyapunov->distance};
     neighbours_begin_ = integrator.state().t;
     lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
+    if (came_to_rest(model_.system, integrator.impacts(), *neighbours_begin_))
+      out_.reason =
+          "a contact came to rest, where deviations vanish: exponents are -infinity, and their numbers say only how far rounding goes";
   }
 
   const OrbitQuestion& question_;
