@@ -41,11 +41,11 @@ double apart(const Second& a, const Second& b, double until) {
 
 // What the defaults take on other paths of the same chaos.
 std::string spread() {
-  constexpr int paths = 9;
+  constexpr int paths = 9, middle = paths / 2;
   std::vector<double> seconds, impacts;
   std::vector<long> steps;
   for (int k = 0; k < paths; ++k) {
-    const Second one = simulate_second("", RunOptions{}.tolerance, 150 + 1e-5 * (k - paths / 2));
+    const Second one = simulate_second("", RunOptions{}.tolerance, 150 + 1e-5 * (k - middle));
     seconds.push_back(one.seconds);
     steps.push_back(one.run.counts.steps);
     impacts.push_back(static_cast<double>(one.run.impacts.size()));

@@ -38,8 +38,9 @@ void hatch(const Vector2d& from, const Vector2d& to, double spacing, int owner, 
   if (!(length > 0)) return;
   const Vector2d u = (to - from) / length, stroke = 0.6 * spacing * (turned_left(u) - u);
   constexpr double most = 1e6;  // number of strokes examined
-  for (double s = 0.5 * spacing; s < std::min(length, most * spacing); s += spacing) {
-    const Vector2d foot = from + s * u;
+  const auto strokes = static_cast<int>(std::min(most, std::ceil(length / spacing - 0.5)));
+  for (int k = 0; k < strokes; ++k) {
+    const Vector2d foot = from + (k + 0.5) * spacing * u;
     if (near(foot)) out.lines.push_back({Part::hatch, owner, false, {foot, foot + stroke}});
   }
 }
