@@ -125,6 +125,15 @@ TEST(Nonlinear, ExponentsOfABouncingBallAreTheLogarithmsOfItsMultipliers) {
   EXPECT_NEAR(found[0].value * period, std::log(table.e), 0.02);  // the share of the last, unfinished turn of the pair
 }
 
+// x of the ball is 0 but for rounding, which does not repeat.
+TEST(Nonlinear, ASignalThatIsRoundingHidesNoPeriod) {
+  const VibratingTable table;
+  const SweepFolder folder;
+  const std::string study =
+      "section: {every: 2*pi/omega, record: [ball.y, ball.x + 1e-17 m*sin(1e6 rad/s*t), ball.vx], transient: 300, returns: 16}\n";
+  EXPECT_EQ(follow_study(folder, table.scene(0.98 * table.doubling(), 1.001), study).values.at(0).period, 1u);
+}
+
 // Just below the birth of its orbit the ball comes to rest in each period, where all deviations vanish.
 TEST(Nonlinear, ExponentsOfAMotionThatComesToRestAreDoubted) {
   const VibratingTable table;

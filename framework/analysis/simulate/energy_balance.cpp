@@ -48,7 +48,7 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
 /// What may have made an impact at this contact add energy, and what to do about it.
 std::string reason_of_gain(const ContactPair& pair, const Scheme& scheme) {
   const std::string steps = "an error of the steps, which falls with their length; shorten moreau.step";
-  const std::string law = pair.rigid->poisson
+  std::string law = pair.rigid->poisson
                               ? "restitution can do so where several contacts that differ in it are struck at once; give them one"
                               : "Newton's law of restitution can do so with friction, or where several contacts are struck at "
                                 "once; take restitution law: poisson";

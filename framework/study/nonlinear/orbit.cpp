@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 
 #include "framework/analysis/simulate/simulate.h"
@@ -344,11 +345,16 @@ OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const Orbi
   return out;
 }
 
-std::size_t period_of(const std::vector<std::vector<double>>& signals, double tolerance) {
+std::size_t period_of(const std::vector<std::vector<double>>& signals, const std::vector<std::string>& units, double tolerance) {
+  constexpr double nothing = 1e-6;
   if (signals.empty()) return 0;
   std::vector<double> size(signals[0].size(), 0.0);
   for (const auto& one : signals)
     for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], std::abs(one[i]));
+  std::map<std::string, double> largest;
+  const auto unit = [&](std::size_t i) { return i < units.size() ? units[i] : ""; };
+  for (std::size_t i = 0; i < size.size(); ++i) largest[unit(i)] = std::max(largest[unit(i)], size[i]);
+  for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], nothing * largest[unit(i)]);
   const auto comes_again = [&](std::size_t period) {
     for (std::size_t k = period; k < signals.size(); ++k)
       for (std::size_t i = 0; i < size.size(); ++i)

@@ -140,7 +140,7 @@ OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&,
                       const OrbitLimits&);
 
 /// The smallest number of returns after which all signals repeat within `tolerance`, relative to the largest magnitude of each; 0 if none does
-/// up to half of the returns.
-std::size_t period_of(const std::vector<std::vector<double>>& signals, double tolerance);
+/// up to half of the returns. A signal below a millionth of another of its unit is 0 but for rounding, and counts as so large.
+std::size_t period_of(const std::vector<std::vector<double>>& signals, const std::vector<std::string>& units, double tolerance);
 
 }  // namespace pintle
