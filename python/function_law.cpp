@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <variant>
+#include <vector>
 
 #include "framework/common/nearest.h"
 #include "python/bindings.h"
@@ -16,7 +17,7 @@ class Called {
   Called(const FunctionLaw& law, int component) : is_(law.is), owner_(law.owner), component_(component) {
     for (const std::string& name : law.of) times_.push_back(name == "t");
   }
-  double operator()(double t, const double* in) const {
+  double operator()(double t, const std::vector<double>& in) const {
     const py::gil_scoped_acquire held;
     py::tuple arguments(times_.size());
     std::size_t next = 0;
@@ -50,18 +51,18 @@ double step_of(double x) {
 SignalFunction of_signals(const FunctionLaw& law, int component) {
   const auto n = static_cast<std::size_t>(std::ranges::count_if(law.of, [](const std::string& name) { return name != "t"; }));
   return [called = Called(law, component), n](double t, const double* in, double* slope) {
+    std::vector<double> x(in, in + n);
     if (slope) {
-      std::vector<double> x(in, in + n);
       for (std::size_t i = 0; i < n; ++i) {
         const double h = step_of(in[i]);
         x[i] = in[i] + h;
-        const double above = called(t, x.data());
+        const double above = called(t, x);
         x[i] = in[i] - h;
-        slope[i] = (above - called(t, x.data())) / (2 * h);
+        slope[i] = (above - called(t, x)) / (2 * h);
         x[i] = in[i];
       }
     }
-    return called(t, in);
+    return called(t, x);
   };
 }
 
@@ -75,7 +76,7 @@ Law law_of(const FunctionLaw& function, int component = -1) {
     else
       law.signals.push_back(name);
   if (law.signals.empty())
-    law.at = [called = Called(function, component)](double t) { return Jet{called(t, nullptr)}; };
+    law.at = [called = Called(function, component)](double t) { return Jet{called(t, {})}; };
   else
     law.of_signals = of_signals(function, component);
   return law;
