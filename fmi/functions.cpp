@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "files/files.h"
 #include "fmi/handle.h"
@@ -191,7 +190,7 @@ FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState
   return safely(instance, "fmi3SerializeFMUState", [&](FmuHandle& h) {
     const std::string text = h.instance->text(state_behind(state));
     if (!bytes || size < text.size()) throw FmuError("there is no room; ask fmi3SerializedFMUStateSize");
-    std::memcpy(bytes, text.data(), text.size());
+    std::ranges::copy(text, bytes);
   });
 }
 FMI3_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], std::size_t size, fmi3FMUState* state) {

@@ -21,7 +21,7 @@ struct InverseResult {
 template <class Compute>
 auto watched(const SceneSource& source, Question question, Compute compute) {
   Watch watch;
-  const auto out = [&] {
+  auto out = [&] {
     const py::gil_scoped_release free;
     Listeners listeners;
     listeners.progress = [&](double t) { return watch(t); };
@@ -34,20 +34,20 @@ auto watched(const SceneSource& source, Question question, Compute compute) {
 }
 
 Found run(const SceneSource& source) {
-  return watched(source, Question::run, [](std::shared_ptr<const Prepared> p, const Listeners& listeners) {
+  return watched(source, Question::run, [](const std::shared_ptr<const Prepared>& p, const Listeners& listeners) {
     return std::make_shared<RunResult>(RunResult{p, std::make_shared<Run>(simulate(p->scene, p->model, p->assembly, listeners))});
   });
 }
 
 Found driven(const SceneSource& source) {
-  return watched(source, Question::kinematics, [](std::shared_ptr<const Prepared> p, const Listeners& listeners) {
+  return watched(source, Question::kinematics, [](const std::shared_ptr<const Prepared>& p, const Listeners& listeners) {
     require_driven(p->scene, p->model, p->assembly);
     return std::make_shared<RunResult>(RunResult{p, std::make_shared<Run>(kinematics(p->scene, p->model, p->assembly, listeners)), true});
   });
 }
 
 std::shared_ptr<InverseResult> inverted(const SceneSource& source) {
-  return watched(source, Question::run, [](std::shared_ptr<const Prepared> p, const Listeners& listeners) {
+  return watched(source, Question::run, [](const std::shared_ptr<const Prepared>& p, const Listeners& listeners) {
     return std::make_shared<InverseResult>(
         InverseResult{p, std::make_shared<Inverse>(inverse(p->scene, p->model, p->assembly, listeners))});
   });

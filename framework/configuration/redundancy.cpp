@@ -56,7 +56,8 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
   way += least_step(J, W, -(J * way), 1e-13, 4);
   const double reach = way.cwiseQuotient(system.scale).lpNorm<Eigen::Infinity>();
   if (!(reach > 1e-6)) return std::nullopt;
-  for (double step = far / reach; step > 0.1 * far / reach; step /= 2) {
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    const double step = std::ldexp(far / reach, -halvings);
     VectorXd to = y;
     to.head(system.n()) += step * way;
     VectorXd C = held(to, &J);
