@@ -49,7 +49,7 @@ class Reading {
   Asked read_path() {
     const std::string& point = measure_.path->point;
     if (std::ranges::find(measurables_.points, point) == measurables_.points.end())
-      fail("\"" + point + "\" is no point of a body of this scene." + did_you_mean(point, measurables_.points));
+      fail("\"" + point + "\" is not a point of a body of this scene." + did_you_mean(point, measurables_.points));
     is(What::path, "m", "", point);
     asked_.statistic = Statistic::rms;
     validate_analysis();
