@@ -34,7 +34,7 @@ std::vector<char*> argv_of(std::vector<std::string>& words) {
 [[noreturn]] void fail_to_start(const fs::path& file, const std::string& command, const std::string& packages, int error) {
   if (error == ENOENT)
     throw std::runtime_error(file.string() + " is missing, and `pintle " + command +
-                             "` needs it; build all programs (./dev build). To build it: apt-get install " + packages);
+                             "` needs it; build all programs (./dev build). The build needs: apt-get install " + packages);
   throw std::runtime_error(file.string() + ", which `pintle " + command + "` needs, cannot be started");
 }
 
