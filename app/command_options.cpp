@@ -127,7 +127,7 @@ constexpr const char* what_sensitivity_writes =
     "  sensitivity.csv         derivatives with their errors, worst case, scatter, Sobol indices with their intervals\n"
     "  sensitivity.json        the same, for programs\n"
     "  sweep.csv, …            the cases, as for sweep; after an interruption, the same command continues from there\n"
-    "Exit code 4: no case ran to its end. Others: see pintle --help\n";
+    "Exit code 4: a case did not run to its end, or a measure has no value in it. Others: see pintle --help\n";
 
 constexpr const char* what_nonlinear_writes =
     "A study names a scene, a section through its motion or Lyapunov exponents, and optionally a parameter to vary; docs/nonlinear.md\n"
@@ -193,7 +193,7 @@ constexpr const char* what_tradeoff_writes =
     "models of its clearances, modes of its bodies. It writes\n"
     "  tradeoff.csv            one row per setting: times, values, errors, what dominates\n"
     "  tradeoff.svg, .md       error against time; the answers and the front as tables\n"
-    "  tradeoff.json           all of it, with the reference and how the reference was proved\n"
+    "  tradeoff.json           all of it, with the reference and how the reference was verified\n"
     "  recommended.yaml        the scene with the recommended setting, ready to run\n"
     "Exit code 4: nothing is recommended, because no setting was shown to reach the requested error (or time); the output\n"
     "says what is missing and what would help. recommended.yaml is then not written. Others: see pintle --help\n";

@@ -45,11 +45,11 @@ void print_head(const Scene& scene) { std::cout << (scene.title.empty() ? scene.
 
 void add_body(Rows& rows, const ElasticBody& e) {
   const RigidInertia inertia = rigid_inertia(e.model, e.M);
-  rows.insert(rows.end(),
-              {{"body", e.scene->name},
-               {"mesh", std::to_string(e.mesh.x.cols()) + " nodes, " + cells(e.mesh) + ", " + std::to_string(e.model.n()) + " freedoms"},
-               {"mass", number(inertia.m) + " kg, centre " + place(inertia.c / inertia.m, 100 * size_of(e.mesh)) + ", inertia there " +
-                            number(inertia.J - inertia.c.squaredNorm() / inertia.m) + " kg m^2"}});
+  rows.insert(rows.end(), {{"body", e.scene->name},
+                           {"mesh", std::to_string(e.mesh.x.cols()) + " nodes, " + cells(e.mesh) + ", " + std::to_string(e.model.n()) +
+                                        " degrees of freedom"},
+                           {"mass", number(inertia.m) + " kg, centre " + place(inertia.c / inertia.m, 100 * size_of(e.mesh)) +
+                                        ", inertia there " + number(inertia.J - inertia.c.squaredNorm() / inertia.m) + " kg m^2"}});
 }
 
 void print_warnings(const ElasticBody& e) {

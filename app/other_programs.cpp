@@ -34,7 +34,7 @@ std::vector<char*> argv_of(std::vector<std::string>& words) {
 [[noreturn]] void fail_to_start(const fs::path& file, const std::string& command, const std::string& packages, int error) {
   if (error == ENOENT)
     throw std::runtime_error(file.string() + " is missing, and `pintle " + command +
-                             "` needs it; build all programs (./dev build). What it is built with: apt-get install " + packages);
+                             "` needs it; build all programs (./dev build). The build needs: apt-get install " + packages);
   throw std::runtime_error(file.string() + ", which `pintle " + command + "` needs, cannot be started");
 }
 
@@ -67,7 +67,8 @@ int write_hdf5(const fs::path& directory) {
     fail_to_start(file, "run --hdf5", hdf5_packages, error);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw std::runtime_error(file.string() + ": how it ended is not known; the results are in " + directory.string());
+    if (errno != EINTR)
+      throw std::runtime_error(file.string() + ": whether it succeeded is unknown; the results are in " + directory.string());
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   throw std::runtime_error(file.string() + " was ended by signal " + std::to_string(WTERMSIG(status)) + "; the results are in " +
                            directory.string() + ", and `pintle hdf5` converts them");

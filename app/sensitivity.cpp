@@ -98,7 +98,7 @@ int sensitivity(const Options& options) {
   if (std::ranges::all_of(end.rows, ran)) return has_values(plan, all) ? ok : run_failed;
   if (const auto lost = std::ranges::find_if_not(end.rows, ran); std::ranges::any_of(end.rows, ran)) {
     std::cerr << plan.sweep.study.file << ": " << std::ranges::count_if(end.rows, [&](const Row& r) { return !ran(r); }) << " of "
-              << end.rows.size() << " cases did not run to their end, and no number counts them; case " << lost->number << ": "
+              << end.rows.size() << " cases did not run to their end and are left out of the results; case " << lost->number << ": "
               << lost->status << ": " << lost->reason << "\n";
     return run_failed;
   }

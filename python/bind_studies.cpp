@@ -69,8 +69,8 @@ std::string lost_cases(const std::vector<Row>& rows) {
   const auto first = std::ranges::find_if(rows, lost);
   if (first == rows.end()) return {};
   return std::to_string(std::ranges::count_if(rows, lost)) + " of " + std::to_string(rows.size()) +
-         " cases did not run to their end, and no number counts them; case " + std::to_string(first->number) + ": " + first->status + ": " +
-         first->reason;
+         " cases did not run to their end and are left out of the results; case " + std::to_string(first->number) + ": " + first->status +
+         ": " + first->reason;
 }
 
 /// (sensitivity.csv, sensitivity.json, sweep.csv, a warning or "")

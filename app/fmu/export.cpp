@@ -29,7 +29,7 @@ constexpr const char* platform = "x86_64-linux";
 
 constexpr const char* licence =
     "The shared library of this unit is Pintle, free software under the GNU General Public License, version 3 or any later\n"
-    "version: who gets the unit may have the program's source. The scene in resources/ is its author's own.\n";
+    "version: whoever receives the unit is entitled to the program's source. The scene in resources/ belongs to its author.\n";
 
 /// What the scene's file is called, without its endings.
 std::string name_of(const fs::path& scene) {
@@ -54,7 +54,7 @@ std::map<std::string, std::string> scene_files(const fs::path& scene, const std:
     const fs::path name = fs::absolute(path).lexically_normal().lexically_relative(folder);
     if (name.empty() || *name.begin() == "..")
       throw SceneError(path.string() + ": lies outside the folder of the scene, " + folder.string() +
-                       ", which is all that a unit can hold; copy it there and name it so in the scene");
+                       ", but a unit can contain files of this folder only; copy it there and correct its path in the scene");
     if (!out.contains(name.generic_string())) out[name.generic_string()] = read_file(path, std::numeric_limits<std::size_t>::max());
   }
   return out;

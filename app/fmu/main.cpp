@@ -54,23 +54,24 @@ int carry_out(int argc, char** argv) {
   std::string scene, out;
   bool quiet = false;
   command.add_option("scene", scene, "scene file (YAML)")->required()->type_name("SCENE.yaml");
-  command.add_option("-o,--out", out, "the unit to write; one that is there is replaced (default: SCENE.fmu here)")->type_name("FILE.fmu");
+  command.add_option("-o,--out", out, "the unit to write; an existing file is replaced (default: SCENE.fmu in the current folder)")
+      ->type_name("FILE.fmu");
   command
       .add_option("--input", order.inputs,
-                  "a state of the scene whose rate is 0, for the importer to set; may be repeated (default: all that no event of the scene "
-                  "sets)")
+                  "a state of the scene whose rate is 0, for the importer to set; may be repeated (default: all such states that no "
+                  "event of the scene sets)")
       ->allow_extra_args(false)
       ->type_name("STATE");
   command
       .add_option("--output", order.outputs,
                   "a column of trajectory.csv, e.g. \"gudgeon pin.normal\"; may be repeated (default: the scene's outputs, or all columns "
-                  "where it has none). The others can be read too, as local variables")
+                  "if it has none). The others can be read too, as local variables")
       ->allow_extra_args(false)
       ->type_name("COLUMN");
-  command.add_option("--set", options.set, "override a parameter or key of the scene, in the unit for good; may be repeated")
+  command.add_option("--set", options.set, "override a parameter or key of the scene, fixed in the unit; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME|PATH=VALUE");
-  command.add_flag("-q,--quiet", quiet, "print nothing but errors");
+  command.add_flag("-q,--quiet", quiet, "print errors only");
   command.footer(
       "The unit holds the scene, the files that it reads, and Pintle as a shared library for Linux on x86-64. docs/fmu.md says what an\n"
       "importer sees. Exit codes: see pintle --help\n");

@@ -93,7 +93,7 @@ Typed typed(const FmuVariable& v, std::size_t reference) {
   switch (v.kind) {
     case FmuVariable::time: say("independent", "continuous", nullptr, "time"); break;
     case FmuVariable::parameter: say("parameter", "fixed", "exact", "parameter of the scene"); break;
-    case FmuVariable::input: say("input", "continuous", nullptr, "state of the scene that the importer gives"); break;
+    case FmuVariable::input: say("input", "continuous", nullptr, "state of the scene that the importer sets"); break;
     case FmuVariable::column: say(v.output ? "output" : "local", "continuous", "calculated", ""); break;
     case FmuVariable::happened: say("output", "discrete", "calculated", "how often the event \"" + v.of + "\" has acted"); break;
     case FmuVariable::contacts: say("output", "discrete", "calculated", "how often \"" + v.of + "\" has come into contact"); break;

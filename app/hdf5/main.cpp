@@ -54,7 +54,7 @@ int convert(const fs::path& directory, const fs::path& file, bool quiet) {
   }
   if (is_unfinished(directory))
     std::cerr << "warning: " << directory.string() << ": "
-              << (is_being_filled(directory) ? "the run is still going on; the file holds the rows that are on the disk by now"
+              << (is_being_filled(directory) ? "the run is still going on; the file holds the rows written so far"
                                              : "the run did not finish; the whole rows of its tables are converted")
               << "\n";
   if (!quiet)

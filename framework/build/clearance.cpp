@@ -58,9 +58,8 @@ std::string match(const Scene& scene, const SceneClearance& c, const IdealPin& p
     const double energy = pin.force * radial;
     const double depth = energy > 0 ? depth_storing(law, energy) : 0.01 * radial;
     spring.k = stiffness_of_equal_energy(law, depth);
-    words +=
-        "; the stiffness stores as much energy as the contact law at a depth of " + text(depth) + " m" +
-        (energy > 0 ? ", the depth that the work of the ideal joint's force, " + text(pin.force) + " N, over the clearance gives" : "");
+    words += "; the stiffness stores as much energy as the contact law at a depth of " + text(depth) + " m" +
+             (energy > 0 ? ", reached with the work that the ideal joint's force, " + text(pin.force) + " N, does over the clearance" : "");
   }
   if (!c.damping) {
     const double e = restitution_of(law, pin.mass);

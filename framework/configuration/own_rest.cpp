@@ -272,7 +272,7 @@ JointRest find_joint_rest(const System& system, Rest& rest, VectorXd& own, const
   JointRest out;
   if (system.n() + static_cast<int>(states.sought.size()) > most_together) {
     out.reason = "the states " + list_of_states(system, states.sought) +
-                 " are at rest only together with the pose, and this is solved for at most " + std::to_string(most_together) +
+                 " come to rest only together with the pose, which is possible for at most " + std::to_string(most_together) +
                  " coordinates; make the rate of each state decrease with the state, or use fewer modes";
     return out;
   }
@@ -297,7 +297,7 @@ std::string beyond_its_limit(const System& system, const System& unlimited, cons
                  free = law_at(unlimited, unlimited.laws[at(own.rate)], state.t, state.y);
     if (!(std::abs(rate - free) <= still * own.scale))
       return "the state " + quoted(own.name) + " does not come to rest: its rate there is " + with_rate_unit(rate, own) +
-             ", as far as its limits let it; they must leave 0 between them";
+             "; the limits of its rate must include 0";
   }
   return "";
 }

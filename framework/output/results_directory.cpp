@@ -126,7 +126,7 @@ std::string why_without(const std::string& lacking, const fs::path& folder) {
     if (fs::exists(folder / file, error))
       return std::string("it holds ") + what + ", which has no " + lacking + "; name the folder of a run";
   if (fs::exists(folder / "journal-0.txt", error))
-    return "it holds a study that has not ended; give its command again with the same --out, and it continues from there";
+    return "it holds a study that has not ended; to continue it, repeat its command with the same --out";
   const bool begun = folder.filename().string().find(".part-") != std::string::npos || fs::exists(folder / "trajectory.csv", error);
   const bool hidden = ::access((folder / "trajectory.csv").c_str(), R_OK) != 0 && errno == EACCES;
   if (begun && !hidden && !has_ended(folder) && !time_of_last_row(folder))

@@ -81,7 +81,7 @@ class Folders(unittest.TestCase):
         (self.place / "begun").mkdir()
         for name in ("journal-0.txt", "study.yaml", "scene.yaml"):
             shutil.copy(self.place / "sweep" / name, self.place / "begun")
-        goes_on = "it holds a study that has not ended; give its command again with the same --out, and it continues from there"
+        goes_on = "it holds a study that has not ended; to continue it, repeat its command with the same --out"
         self.refusal("begun: has nothing to show: " + goes_on, "report", "begun")
         self.refusal("begun: has nothing to plot: " + goes_on, "plot", "begun", "rod.angle")
         self.refusal("sweep: has nothing to plot: it holds a sweep, which has no rows over time; name the folder of a run", "plot", "sweep", "turn")

@@ -191,7 +191,7 @@ class Hdf5(unittest.TestCase):
         process, folder = self.killed(scene.replace("until: 0.3 s", "until: 900 s, max steps: 2000000000"))
         done = self.say("hdf5", folder, "now.h5")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"{folder}: the run is still going on; the file holds the rows that are on the disk by now", done.stderr)
+        self.assertIn(f"{folder}: the run is still going on; the file holds the rows written so far", done.stderr)
         with h5py.File(self.place / "now.h5", "r") as file:
             self.assertEqual({k for k in file if isinstance(file[k], h5py.Dataset)}, {"run.json"})  # nothing else ends in .json
         process.kill(), process.wait()
@@ -245,7 +245,7 @@ class Hdf5(unittest.TestCase):
 
     def test_what_a_folder_without_tables_holds_is_told(self):
         self.folder({"journal-0.txt": "", "study.yaml": "", "scene.yaml": ""}, "study")
-        self.assertIn("study: has no tables (.csv): it holds a study that has not ended; give its command again with the same --out",
+        self.assertIn("study: has no tables (.csv): it holds a study that has not ended; to continue it, repeat its command with the same --out",
                       self.say("hdf5", "study").stderr)
         self.folder({}, "out.part-abcdef")
         self.assertIn("out.part-abcdef: has no tables (.csv): its run was killed before it wrote any tables; run its scene again",

@@ -112,7 +112,7 @@ class Manners(unittest.TestCase):
     def test_what_is_not_there_ends_as_the_help_says(self):
         help = self.say("--help").stdout
         self.assertRegex(help, "1  results cannot be read or written")
-        self.assertRegex(help, "2  .*a scene, a study or a file that these name is: also if it is missing or cannot be read")
+        self.assertRegex(help, "2  .*a scene, a study or a file that they name is wrong, missing or unreadable")
         for command in ("run", "check", "statics", "kinematics", "inverse", "linearize", "modes", "static", "mesh", "fmu", "sweep", "fit", "sensitivity",
                         "nonlinear", "tradeoff"):
             if command != "fmu" or (Path(pintle).parent / "pintle-fmu").exists():

@@ -38,18 +38,18 @@ void expect_failed(const Whole& w, std::initializer_list<const char*> parts) {
 
 TEST_P(Level, OfTwoThatUndoEachOtherEndsByName) {
   const Whole w = run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}}, down: {when: b.vx < 1 m/s, do: {set: {F: 2}}}"), GetParam());
-  expect_failed(w, {"t = 0.5 s", "up", "down", "again and again without time passing", "two levels apart"});
+  expect_failed(w, {"t = 0.5 s", "up", "down", "repeat without time passing", "two different levels"});
 }
 TEST_P(Level, OfOneWithElseEndsByName) {
   const Whole w = run(pushed("up: {when: b.vx > 1 m/s, do: {set: {F: -2}}, else: {set: {F: 2}}}"), GetParam());
-  expect_failed(w, {"t = 0.5 s", "up", "again and again without time passing", "two levels apart"});
+  expect_failed(w, {"t = 0.5 s", "up", "repeat without time passing", "two different levels"});
 }
 // What a state's jump makes false comes again at this instant, where the next makes it true.
 TEST_P(Level, OfTwoThatSetBackWhatTheyWaitForEndsByName) {
   const Whole w = run(pushed("low: {when: F < 1, do: {set: {F: 3}}}, high: {when: F > 2.5, do: {set: {F: 0}}}, "
                              "first: {when: t > 1 s, once: true, do: {set: {F: 3}}}"),
                       GetParam());
-  expect_failed(w, {"t = 1 s", "low", "high", "again and again without time passing"});
+  expect_failed(w, {"t = 1 s", "low", "high", "repeat without time passing"});
 }
 TEST_P(Level, WhereAStateIsSetToNoNumberEndsByName) {
   const Whole w = run(pushed("jump: {when: b.vx > 1 m/s, do: {set: {F: 1/(F - 2)}}}"), GetParam());
@@ -81,7 +81,7 @@ run: {until: 10 s}
 events: {bounce: {when: h < 0, do: {set: {v: -0.5*v, h: 0}}}}
 )yaml",
                       GetParam());
-  expect_failed(w, {"bounce", "again and again without time passing"});
+  expect_failed(w, {"bounce", "repeat without time passing"});
 }
 // What is fast but moves goes on: ten thousand times a second, by as much as a ten millionth of what it compares.
 TEST_P(Level, ThatIsMetAfterEqualShortTimesGoesOn) {
@@ -185,7 +185,7 @@ events: {)yaml" + events +
   EXPECT_EQ(set.last("n [1]"), 7);
   expect_failed(
       ends("low: {when: n < 1, do: {set: {n: 3}}}, high: {when: n > 2.5, do: {set: {n: 0}}}, first: {when: t >= 1 s, do: {set: {n: 3}}}"),
-      {"t = 1 s", "low", "high", "again and again without time passing"});
+      {"t = 1 s", "low", "high", "repeat without time passing"});
 }
 
 // A clock of 1705 s goes in steps of 2.3e-13 s, in which this speed changes by as many m/s. A start within 7.7e-13 m/s, three steps, is at

@@ -83,7 +83,7 @@ TEST(ImpactGain, OfNewtonsLawIsNotAnErrorOfTheSteps) {
     ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
     EXPECT_NEAR(gained(w), Pendulum{}.gain(), 1e-4);
     const std::string warning = warning_of_gain(w);
-    EXPECT_NE(warning.find("if that changes nothing: Newton's law"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("if this does not help: Newton's law"), std::string::npos) << warning;
   }
 }
 

@@ -284,7 +284,7 @@ TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
            {"force at gudgeon pin", {"write peak, greatest, least"}},
            {"peak force", {"does not say of which joint"}},
            {"peak force at gudgeon pin at 1 ms", {"an instant has one value"}},
-           {"wobble of crank", {"\"wobble of crank\" is nothing that can be measured", "peak force at JOINT"}},
+           {"wobble of crank", {"\"wobble of crank\" cannot be measured", "peak force at JOINT"}},
            {"x of slider at 3 kg", {"a mass [kg]", "after 10 ms"}},
            {"x of slider at noon", {"noon"}},
            {"x of slider someday", {"\"someday\" is not understood"}},
@@ -293,7 +293,7 @@ TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
            {"peak impacts at gudgeon pin", {"one number of a run"}},
            {"peak stress at coupler.M", {"begins with no point", "coupler.A"}},
            {"time of mean x of slider", {"time of peak WHAT"}},
-           {"", {"nothing that can be measured"}},
+           {"", {"cannot be measured"}},
            {"mean x of slider before 0 s", {"empty"}},
            {"x of slider at -1 s", {"before the run begins"}}}) {
     SCOPED_TRACE(b.words);

@@ -68,8 +68,8 @@ TEST(MeasuredExpression, KinematicsMeasuresWhatNamesNoForce) {
   EXPECT_NEAR(rows[0].values[1], 2, 1e-9);
   EXPECT_NEAR(rows[0].values[2], 0, 1e-9);
   EXPECT_TRUE(fs::exists(folder / "out/curves/case-1.csv"));
-  pintle_test::expect_says(refused("analysis: kinematics\nmeasure: {q: final load}"), {"kinematics knows motion alone"});
-  pintle_test::expect_says(refused("analysis: kinematics\nmeasure: {q: final 2*motor.torque}"), {"kinematics knows motion alone"});
+  pintle_test::expect_says(refused("analysis: kinematics\nmeasure: {q: final load}"), {"kinematics computes motion only"});
+  pintle_test::expect_says(refused("analysis: kinematics\nmeasure: {q: final 2*motor.torque}"), {"kinematics computes motion only"});
 }
 
 // speed t = 1 rad
@@ -99,7 +99,7 @@ TEST(MeasuredExpression, WhatNoCaseCanHaveIsRefusedByName) {
   pintle_test::expect_says(refused("measure: {q: mean hinge.normal}"), {"hinge.normal", "in no case", "hinge.fx"});
   pintle_test::expect_says(refused("measure: {q: peak coil.lenth}"), {"coil.lenth", "Did you mean \"coil.length\"?"});
   pintle_test::expect_says(refused("measure: {q: peak hinge.power}"), {"does no work"});
-  pintle_test::expect_says(refused("measure: {q: peak hinge.fx*speed}"), {"parameters do not stand in measures"});
+  pintle_test::expect_says(refused("measure: {q: peak hinge.fx*speed}"), {"parameters are not allowed in measures"});
 }
 
 TEST(MeasuredExpression, CurvesAreKeptOfEachSituation) {

@@ -180,7 +180,7 @@ TEST(NamedStates, WhatCannotBeIsRefusedByName) {
   expect_one_line(refusal("{lag: cart.x, time: 1 s, unit: N}"), place + ".unit: ", {"a force [N]; expected a length [m]"});
   expect_one_line(refusal("{lag: cart.y2, time: 1 s}"), place + ".lag: ", {"\"cart.y2\"", "there is no signal"});
   expect_one_line(refusal("{rate limit: cart.x, time: 1 s}"), place + ": ", {"most"});
-  expect_one_line(refusal("{rate limit: cart.x, time: 1 s, most: [1 m/s, 2 m/s]}"), place + ".most: ", {"no way down"});
+  expect_one_line(refusal("{rate limit: cart.x, time: 1 s, most: [1 m/s, 2 m/s]}"), place + ".most: ", {"both directions"});
   expect_one_line(refusal("{lagg: cart.x, time: 1 s}"), place + ".lagg: ", {"Did you mean \"lag\"?"});
   expect_one_line(refusal("{lag: cart.x, time: 1 s, gains: [1, 2, 3]}"), place + ".gains: ", {"does not belong to lag but to pid"});
 }
@@ -215,9 +215,9 @@ TEST(NamedStates, AnEventSetsTheStatesOfAControllerAndIsToldThem) {
         [&] { build(scene(still + "states: {u: {pid: cart.x, " + gains + "}}\nevents: {e: {when: t > 1 s, do: {set: {u: 1 N}}}}\n")); });
   };
   const std::string place = "scene.yaml:7: events.e.do.set.u: ";
-  expect_one_line(refusal("gains: [1 N/m, 2 N/m/s, 0]"), place, {"\"u\" is no state", "set one of its states: \"u integral\""});
+  expect_one_line(refusal("gains: [1 N/m, 2 N/m/s, 0]"), place, {"\"u\" is not a state", "set one of its states: \"u integral\""});
   expect_one_line(refusal("gains: [1 N/m, 2 N/m/s, 3 N s/m], filter: 2 ms"), place, {"\"u integral\" or \"u filter\""});
-  expect_one_line(refusal("gains: [1 N/m, 0, 0]"), place, {"\"u\" is no state", "set a state or a parameter"});
+  expect_one_line(refusal("gains: [1 N/m, 0, 0]"), place, {"\"u\" is not a state", "set a state or a parameter"});
 }
 
 }  // namespace

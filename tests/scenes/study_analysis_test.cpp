@@ -157,8 +157,8 @@ TEST(StudyAnalysis, WhatAnAnalysisDoesNotKnowIsRefused) {
     std::string text;
     std::vector<std::string> says;
   };
-  for (const Bad& b : std::vector<Bad>{{"analysis: kinematics\nmeasure: peak force at hinge\n", {"motion alone", "inverse"}},
-                                       {"analysis: inverse\nmeasure: energy lost\n", {"no account of energies"}},
+  for (const Bad& b : std::vector<Bad>{{"analysis: kinematics\nmeasure: peak force at hinge\n", {"motion only", "inverse"}},
+                                       {"analysis: inverse\nmeasure: energy lost\n", {"does not record energies"}},
                                        {"analysis: statics\nmeasure: peak force at hinge\n", {"one state"}},
                                        {"analysis: statics\nmeasure: force at hing\n", {"hing"}},
                                        {"analysis: linearize\nmeasure: force at hinge\n", {"frequency of mode 1"}},

@@ -110,7 +110,7 @@ TEST(SweepJournal, AFolderThatHasLostItIsTold) {
   fs::remove(journal_path(folder / "out", 0));
   EXPECT_NE(pintle_test::refusal_by([&] {
               run_sweep(sweep, folder / "out", {1, nullptr, {}});
-            }).find("has lost its journal-0.txt"),
+            }).find("lacks its journal-0.txt"),
             std::string::npos);
 }
 

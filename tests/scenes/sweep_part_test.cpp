@@ -260,7 +260,7 @@ std::vector<Harm> harms() {
       std::ofstream(file, std::ios::binary) << now;
     };
   };
-  const std::string torn = "is torn or was changed";
+  const std::string torn = "was cut off or changed";
   return {
       {text([](const std::string&) { return ""; }), torn},
       {text([](const std::string& whole) { return whole.substr(0, whole.size() / 2); }), torn},

@@ -22,7 +22,7 @@ std::vector<std::string> warnings_with(const Whole& w, const std::string& words)
   return out;
 }
 std::vector<std::string> shares(const Whole& w) { return warnings_with(w, "more are closed than the motion can tell apart"); }
-std::vector<std::string> two_motions(const Whole& w) { return warnings_with(w, "may as well be pressed there as part (Painlevé)"); }
+std::vector<std::string> two_motions(const Whole& w) { return warnings_with(w, "can either be pressed there or part (Painlevé)"); }
 
 // A bar that falls 1 mm onto feet 0.1 m apart and stays.
 Whole bar_on(int feet, double friction, const std::string& method) {

@@ -186,7 +186,7 @@ TEST(SavedState, RefusesAnotherVersion) {
   text[at] = static_cast<char>(text[at] + 1);
   EXPECT_TRUE(says(refusal(ran, sealed(text)), "was saved by pintle"));
   EXPECT_TRUE(says(refusal(ran, "pintle state 1\n" + text.substr(text.find('\n') + 1)), "another version"));
-  EXPECT_TRUE(says(refusal(ran, "t [s],x\n0,1\n"), "is no saved state"));
+  EXPECT_TRUE(says(refusal(ran, "t [s],x\n0,1\n"), "is not a saved state"));
 }
 
 TEST(SavedState, RefusesBooksThatAreNoEnergies) {
@@ -200,7 +200,7 @@ TEST(SavedState, RefusesBooksThatAreNoEnergies) {
     }
   SavedState negative = ran.state;
   negative.energy_in_play = -1;
-  EXPECT_TRUE(says(refusal(ran, state_text(who, negative)), "no energies"));
+  EXPECT_TRUE(says(refusal(ran, state_text(who, negative)), "negative time or energy"));
 }
 
 TEST(SavedState, RefusesAnotherSceneMadeInCpp) {

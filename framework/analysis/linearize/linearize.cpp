@@ -292,7 +292,7 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
     throw AssemblyError(scene.file, {}, std::string("t = ") + text(state.t, 6) + " s: " + e.what());
   }
   add_notes(scene, system, here, laws, out);
-  if (!held.empty()) out.notes.push_back(held_states(here, held) + " no mode: here nothing changes it, or it changes nothing");
+  if (!held.empty()) out.notes.push_back(held_states(here, held) + " no mode: nothing changes it here, or it changes nothing");
   return out;
 }
 

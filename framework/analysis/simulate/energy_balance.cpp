@@ -41,19 +41,19 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
   const std::string known = warning < least ? " is known to about " + number_text(100 * warning / least, 1) + " %" : " is not known";
   run.warnings.push_back("\"" + integral_name(system, system.integrals[worst]) + "\"" +
                          (more > 1 ? " (and " + std::to_string(more - 1) + " more of the ledger)" : "") + known + ": at most " +
-                         number_text(least, 3) + " J, where the books of this run are good to " + number_text(warning, 2) + " J; " +
-                         for_finer_books(scheme));
+                         number_text(least, 3) + " J, but the energy balance of this run is accurate to " + number_text(warning, 2) +
+                         " J; " + for_finer_books(scheme));
 }
 
 /// What may have made an impact at this contact add energy, and what to do about it.
 std::string reason_of_gain(const ContactPair& pair, const Scheme& scheme) {
   const std::string steps = "an error of the steps, which falls with their length; shorten moreau.step";
   std::string law = pair.rigid->poisson
-                              ? "restitution can do so where several contacts that differ in it are struck at once; give them one"
-                              : "Newton's law of restitution can do so with friction, or where several contacts are struck at "
-                                "once; take restitution law: poisson";
+                        ? "different restitutions can do so where several contacts are struck at once; give all of them the same"
+                        : "Newton's law of restitution can do so with friction, or where several contacts are struck at "
+                          "once; take restitution law: poisson";
   if (!(scheme.fixed_step > 0)) return law;
-  return pair.friction ? steps + ", and if that changes nothing: " + law + " and another method" : steps;
+  return pair.friction ? steps + ", or if this does not help: " + law + " and another method" : steps;
 }
 
 // An impact takes energy from the motion, that of all contacts struck at one instant together. Steps through an impact, or Newton's law with
@@ -113,7 +113,7 @@ void check_energy_balance(const Scene& scene, const Model& model, bool implicit,
   if (open > allowed && !at_rest)
     run.warnings.push_back(found + ", over the bound of " + number_text(run.ledger_bound, 3) +
                            ": it passes because rounding alone may leave " + number_text(floor, 2) +
-                           " J in a mechanism of this mass and size; energies as small as that are not known");
+                           " J in a mechanism of this mass and size; smaller energies cannot be determined");
   warn_of_small_rows(model.system, model.scheme, run);
   warn_of_gains(model.system, model.scheme, run);
 }

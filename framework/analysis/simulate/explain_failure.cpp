@@ -61,7 +61,8 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
   return "the inertia of \"" + system.bodies[bodies.light].name + "\" is " + number_text(1 / bodies.ratio, 3) + " of that of \"" +
          system.bodies[bodies.heavy].name + "\", at its centre or turning about it" + leaves + "; give \"" +
          system.bodies[bodies.light].name +
-         "\" a mass and an inertia nearer to the others', which changes nothing that counts where they are small beside what it carries" +
+         "\" a mass and an inertia nearer to the others', which hardly affects the motion if they remain small compared with what it "
+         "carries" +
          otherwise;
 }
 

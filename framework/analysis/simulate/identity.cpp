@@ -284,15 +284,16 @@ std::string difference(const std::string& saved, const std::string& now) {
   if (part("mechanism") == is["mechanism"]) return "";
   const auto other = [&](const char* name, const char* what) {
     if (part(name) == is[name]) return;
-    out += (out.empty() ? "" : ", and ") + std::string(what) + " is " + is[name].get<std::string>() + ", there it was " +
+    out += (out.empty() ? "" : ", and ") + std::string(what) + " is " + is[name].get<std::string>() + ", but it was saved with " +
            (part(name).is_string() ? part(name).get<std::string>() : "another");
   };
   other("program", "the program");
   other("blas", "BLAS");
   if (!out.empty())
-    return "holds a mechanism whose numbers have other last digits than this one's: " + out +
-           "; continue with what it was saved by (for OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene from its start";
-  return "belongs to another scene: the numbers of its mechanism are others, though its words and files are not; restore what was made in "
+    return "holds a mechanism whose numbers differ from this one's in their last digits: " + out +
+           "; continue with the program and BLAS that saved it (for OpenBLAS: OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS), or run the scene "
+           "from its start";
+  return "belongs to another scene: the numbers of its mechanism differ, although its text and files do not; restore the parts made in "
          "C++, or run the scene from its start";
 }
 

@@ -76,7 +76,7 @@ void warn_of_stiffness(const Scene& scene, const Model& model, double share, Run
   constexpr double most = 0.5;
   if (!(share > most)) return;
   const bool rigid = std::ranges::any_of(model.system.contacts, [](const ContactPair& c) { return is_rigid(c); });
-  const std::string remedy = rigid ? "make what is so fast softer or less damped, or give the contacts a law"
+  const std::string remedy = rigid ? "make the fastest part softer or less damped, or give the contacts a law"
                              : scene.run.constraints == "partitioning" ? "remove constraints: partitioning, and take method: auto"
                              : scene.run.method != "auto"              ? "take method: auto, or generalized-alpha"
                                                                        : "take method: generalized-alpha";

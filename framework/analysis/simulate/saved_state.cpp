@@ -67,13 +67,13 @@ std::string state_text(const std::string& identity, const SavedState& state) {
 
 SavedState state_of(const std::string& text, const std::string& source, const Scene& scene, const Model& model, const Assembly& assembly) {
   const auto reject = [&](const std::string& why) { return SceneError(source + ": " + why); };
-  if (!text.starts_with(kind)) throw reject("is no saved state; name a file states/NNNNN.state of a run");
+  if (!text.starts_with(kind)) throw reject("is not a saved state; name a file states/NNNNN.state of a run");
   if (!text.starts_with(first_line)) throw reject("was saved by another version of pintle; run the scene from its start");
   if (text.size() < first_line.size() + last_line || text.compare(text.size() - last_line, last_word.size(), last_word) != 0)
-    throw reject("is not whole: its last line must be its checksum; take another saved state");
+    throw reject("is incomplete: its last line must be its checksum; take another saved state");
   const std::string said = text.substr(0, text.size() - last_line);
   if (text.substr(text.size() - last_line) != std::string(last_word) + sha256(said) + "\n")
-    throw reject("is damaged: its checksum is not that of its contents; take another saved state");
+    throw reject("is damaged: its checksum does not match its contents; take another saved state");
 
   std::istringstream in(said);
   in.imbue(std::locale::classic());
@@ -95,7 +95,8 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
                     in >> word >> size && in.get() == '\n' && size == said.size() - static_cast<std::size_t>(in.tellg());
   if (!read) throw reject("cannot be understood; take another saved state");
   if (!finite || state.t < 0 || state.energy_in_play < 0)
-    throw reject("holds books that are no energies; take an earlier state, or run the scene from its start");
+    throw reject(
+        "contains numbers that are not finite, or a negative time or energy; take an earlier state, or run the scene from its start");
   if (const std::string why = difference(of_scene, identity(scene, model, assembly)); !why.empty()) throw reject(why);
   state.memory = said.substr(said.size() - size);
   try {
@@ -103,7 +104,7 @@ SavedState state_of(const std::string& text, const std::string& source, const Sc
     trial.load(state.memory);
     if (trial.state().t != state.t) throw std::invalid_argument("its time differs from the one that it names");
   } catch (const std::invalid_argument& why) {
-    throw reject(std::string("cannot be gone on from: ") + why.what() + "; take another saved state, or run the scene from its start");
+    throw reject(std::string("cannot be continued: ") + why.what() + "; take another saved state, or run the scene from its start");
   }
   return state;
 }

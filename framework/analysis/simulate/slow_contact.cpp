@@ -40,9 +40,9 @@ void SlowContacts::warn(const System& system, double in_play, std::vector<std::s
     text.precision(3);
     text << "\"" << system.contact_names[c] << "\": from t = " << s.since << " s on a contact that began at " << s.onset
          << " m/s was pressed in at up to " << s.rate << " m/s, where the damping of its law is " << s.over
-         << " times the elastic force; the law is made for impacts, which slow down from their onset. Doubtful are " << s.lost
-         << " J of hysteresis, " << 100 * s.lost / in_play
-         << " % of the energy in play; set `approach speed: largest`, raise `slowest impact` to the speeds meant, or take "
+         << " times the elastic force; the law is made for impacts, which slow down from their onset. A hysteresis of " << s.lost << " J, "
+         << 100 * s.lost / in_play
+         << " % of the energy in play, is doubtful; set `approach speed: largest`, raise `slowest impact` to the speeds meant, or take "
          << "model: spring-damper";
     warnings.push_back(text.str());
   }

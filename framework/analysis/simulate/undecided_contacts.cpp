@@ -145,7 +145,7 @@ void UndecidedContacts::look_for_two_motions(const State& state) {
     const double direction = now_[i] == Doing::slides_on ? 1 : now_[i] == Doing::slides_back ? -1 : 0;
     if (!goes_both_ways(c, state, direction)) continue;
     two_motions_ = quoted(system_.contact_names[c]) + ": at t = " + number_text(state.t, 6) +
-                   " s rigid bodies with so much friction may as well be pressed there as part (Painlevé); the run takes it that " +
+                   " s rigid bodies with so much friction can either be pressed there or part (Painlevé); the run assumes that " +
                    (slides ? "they are pressed" : "they part") + ". Give the contact a law with a stiffness, or less friction";
   }
 }

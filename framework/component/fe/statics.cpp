@@ -236,9 +236,10 @@ int rigid_motions_left(const FeModel& model, const Supports& supports) {
 
 StaticSolution solve_static(const FeModel& model, const Sparse& K, const Supports& supports, const VectorXd& independent_load) {
   if (K.rows() != model.N() || K.cols() != model.N())
-    fail<std::invalid_argument>("stiffness: ", K.rows(), " × ", K.cols(), ", must be ", model.N(), " square, in nodal freedoms");
+    fail<std::invalid_argument>("stiffness: ", K.rows(), " × ", K.cols(), ", must be ", model.N(), " square, in nodal degrees of freedom");
   if (independent_load.size() != model.n())
-    fail<std::invalid_argument>("load: ", independent_load.size(), " numbers, must be ", model.n(), ", one per independent freedom");
+    fail<std::invalid_argument>("load: ", independent_load.size(), " numbers, must be ", model.n(),
+                                ", one per independent degree of freedom");
   if (!independent_load.allFinite()) fail<std::runtime_error>("load: a number in it is not finite");
   const Sparse A = independent(model, K);
   if (!A.coeffs().allFinite()) fail<std::runtime_error>("the stiffness of the body is not finite; check its material and mesh");

@@ -127,7 +127,7 @@ struct Filling {
 StressField stress_field(const FeModel& model, const Eigen::VectorXd& u, const std::vector<Fibre>& fibres) {
   if (u.size() != model.N())
     throw std::invalid_argument("displacement: " + std::to_string(u.size()) + " numbers, must be " + std::to_string(model.N()) +
-                                ", one per nodal freedom");
+                                ", one per nodal degree of freedom");
   const Counts n = counts(model);
   if (!fibres.empty() && static_cast<Index>(fibres.size()) != n.lines)
     throw std::invalid_argument("fibres: " + std::to_string(fibres.size()) + " for " + std::to_string(n.lines) +

@@ -40,7 +40,7 @@ StaticResponse::StaticResponse(const Component& c) : c_(c), moving_(free_freedom
 MatrixXd StaticResponse::under(const ReferenceConditions& conditions, const MatrixXd& loads) const {
   if (loads.rows() != c_.model.n())
     throw std::invalid_argument("static response: loads of " + std::to_string(loads.rows()) + " rows, must be " +
-                                std::to_string(c_.model.n()) + ", one per independent freedom");
+                                std::to_string(c_.model.n()) + ", one per independent degree of freedom");
   const MatrixXd moving_loads = in_equilibrium(c_, conditions, loads)(moving_, Eigen::all);
   MatrixXd u = MatrixXd::Zero(loads.rows(), loads.cols());
   u(moving_, Eigen::all) = held_.solve(moving_loads);  // in equilibrium: the support forces are zero

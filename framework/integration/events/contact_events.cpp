@@ -209,8 +209,9 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   const Guard now = gap_of(system_, event, step.to.state);
   const bool inside = onset && pair.profiles && now.value > watch(event).zero;  // it enters from the side
   if (inside && now.value > deepest_valid * contact_size(pair, system_.length))
-    return {.failure = name(event) + ": the bodies come to face each other at a depth of " + number_text(now.value, 3) +
-                       " m, from behind a surface or round the end of its path, and a force of this depth would begin at once; close the "
+    return {.failure = name(event) + ": the bodies meet from behind a surface or round the end of its path, at a depth of " +
+                       number_text(now.value, 3) +
+                       " m, and a force of this depth would begin at once; close the "
                        "path (closed: true), lengthen it, or keep the bodies in front of it"};
   if (onset)
     begin(event, step, inside ? std::max(now.rate, latched_at(system_, pair, now.value)) : now.rate);
@@ -239,11 +240,10 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
   State after = state;
   const std::optional<std::vector<Blow>> blows = pintle::strike(system_, touching, after, *eq_);
   if (!blows)
-    return {
-        .failure =
-            name(touching.front()) +
-            ": no impulses stop the bodies that meet here, which may be wedged between others without play; leave them some, or give the "
-            "contact a law with a stiffness"};
+    return {.failure =
+                name(touching.front()) +
+                ": no impulses can stop the bodies that meet here; they may be wedged between others; leave a clearance, or give the "
+                "contact a law with a stiffness"};
   for (const Blow& blow : *blows)
     if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
       log_.begin(blow.contact, state, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));

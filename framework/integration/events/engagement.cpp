@@ -92,7 +92,8 @@ std::string latch(const System& system, int k, State& state, Equations& eq) {
       offset(system, k, state.y) = left;
     else if (!(std::abs(left) * system.row_scale[begin + row] <= meets))
       return "cannot be engaged: its points are " + number_text(std::abs(left), 6) + " m apart (" + row_name(joint, row) + "), and " +
-             number_text(meets * system.length, 3) + " m is all that closes; engage it where they meet, or pull them together by a spring";
+             number_text(meets * system.length, 3) +
+             " m is the largest gap that is closed; engage it where they meet, or pull them together by a spring";
   }
   return "";
 }
@@ -121,7 +122,7 @@ std::string too_deep(const System& system, const SwitchOver& one, const State& s
     if (pair.flank && depth > pair.flank->half)
       return one.pitch > 0 ? overlap("half the backlash of its teeth, in the nearest gap too",
                                      "engage it where tooth faces gap, by a condition on its column `travel`")
-                           : overlap("half the backlash of its teeth, in the gap of the start, the only one that is known",
+                           : overlap("half the backlash of its teeth, in the gap of the start, which is the only known one",
                                      "give its `teeth`, for all other gaps");
   }
   return "";
@@ -161,7 +162,7 @@ std::string strike_joints(const System& system, std::span<const SwitchOver> chan
   share_impulse(system, changes, state, eq, out);
   if (!project(system, state.t, state.y, eq)) return "cannot be engaged: other joints do not let it close";
   if (!(velocity_violation(system, state.y, eq) <= agrees))
-    return "cannot be engaged: it asks for speeds that other joints or drivers do not allow";
+    return "cannot be engaged: it requires speeds that other joints or drivers do not allow";
   return of_rigid_contacts(system, state);
 }
 

@@ -232,7 +232,7 @@ std::string Events::again_and_again() const {
       names.push_back(name.find('"') == std::string::npos ? "the event " + quoted(name) : name);
       if (remedy.empty()) remedy = group(k).remedy();
     }
-  return some_of(names, false) + (names.size() > 1 ? ": their" : ": its") + " events come again and again without time passing" +
+  return some_of(names, false) + (names.size() > 1 ? ": their" : ": its") + " events repeat without time passing" +
          (remedy.empty() ? "" : "; " + remedy);
 }
 

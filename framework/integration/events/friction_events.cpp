@@ -166,7 +166,7 @@ EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
   if (decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt)) return {.change = EventOutcome::Change::jump};
   return {.failure =
               name(event) +
-              ": no forces of the rigid contacts let the bodies move on, as where a rod that slides on its tip jams (Painlevé); give "
+              ": no forces of the rigid contacts let the motion continue, as when a rod that slides on its tip jams (Painlevé); give "
               "the contact a law with a stiffness, or less friction"};
 }
 

@@ -124,10 +124,10 @@ const char* ImpactLog::fault() const {
   for (std::size_t c = 0; c < contacts; ++c) {
     const int open = open_[c];
     if (open >= static_cast<int>(impacts_.size()) || open < -1 || (open >= 0 && impacts_[at(open)].contact != static_cast<int>(c)))
-      return "a contact's impact is not there";
+      return "the impact of a contact is missing";
   }
   for (const Impact& i : impacts_)
-    if (i.contact < 0 || i.contact >= static_cast<int>(contacts)) return "an impact is of no contact";
+    if (i.contact < 0 || i.contact >= static_cast<int>(contacts)) return "an impact belongs to no contact";
   return nullptr;
 }
 

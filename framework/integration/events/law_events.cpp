@@ -92,8 +92,8 @@ void LawEvents::find_sides(const State& state) {
 }
 
 std::string LawEvents::remedy() const {
-  return "its two sides drive the motion back to where they meet, as friction written by sign(…) does at rest: smooth it, for example by "
-         "saturate(v/(1 mm/s), -1, 1), or take friction: coulomb of a joint or contact";
+  return "both sides of its jump drive the motion back to it, as friction written with sign(…) does at rest: smooth it, for example with "
+         "saturate(v/(1 mm/s), -1, 1), or use friction: coulomb of a joint or contact";
 }
 
 WatchedGuard LawEvents::watch(int event) const {

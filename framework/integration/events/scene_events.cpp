@@ -133,7 +133,7 @@ void SceneEvents::see(const State& state) {
 }
 
 std::string SceneEvents::remedy() const {
-  return "what they do undoes what they wait for: let them come at two levels apart (a hysteresis), or once: true";
+  return "their actions undo their conditions: use two different levels (a hysteresis), or once: true";
 }
 
 WatchedGuard SceneEvents::watch(int event) const {
@@ -352,7 +352,7 @@ EventOutcome SceneEvents::act(int event, Step& step, const Guard&) {
       set->set(system_, seen, state);
       if (!state.y.allFinite()) {
         out.failure = "the event " + quoted(rule.name) + " sets " + set->name +
-                      " to what is not a finite number at t = " + number_text(state.t, 9) + " s" +
+                      " to a value that is not finite at t = " + number_text(state.t, 9) + " s" +
                       (set->seen ? set->seen(system_, seen) : "");
         out.did = failed_to_act;
         return out;

@@ -265,10 +265,10 @@ std::string fault_of_name(std::string_view name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   if (name.empty() || !letter(name[0]) || !std::ranges::all_of(name, [&](char c) { return letter(c) || digit(c); }))
-    return "a parameter's name is letters, digits and _, and begins with a letter";
+    return "a parameter's name consists of letters, digits and _, and begins with a letter";
   if (name == "t") return "t is the time; choose another name";
   if (name == "pi") return "pi is a constant; choose another name";
-  if (name == "present") return "present is what a length or angle is at the start; choose another name";
+  if (name == "present") return "present is the value of a length or angle at the start; choose another name";
   // Single letters have many meanings: if a scene defines F, it means that there, and not farad.
   if (const Unit* unit = find_unit(name); unit && unit->dimension.current == 0)
     return std::string(name) + " is a unit; choose another name, such as " + std::string(name) + "_1";

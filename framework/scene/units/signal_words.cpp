@@ -190,10 +190,10 @@ std::map<std::string, SignalWord, std::less<>> signal_words(const Scene& scene) 
 
 SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>& words, SignalUse use) {
   constexpr const char* feedback =
-      "follows from the accelerations, which follow from what acts (algebraic feedback), so only outputs and conditions of events may "
-      "name it: take places, speeds, lengths or states here";
+      "depends on the accelerations, which depend on the forces (algebraic feedback), so only outputs and conditions of events may "
+      "name it: use positions, speeds, lengths or states here";
   constexpr const char* no_work =
-      "is 0 at all times: an ideal joint or coupling does no work; ask for that of a driver, force or spring, or of a joint with friction";
+      "is 0 at all times: an ideal joint or coupling does no work; use the power of a driver, force or spring, or of a joint with friction";
   SignalNames out;
   for (const auto& [name, word] : words) {
     SignalName& known = out[name] = {word.dimension, ""};
@@ -205,7 +205,7 @@ SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>& w
     if (word.what == What::work_rate && !word.text.empty()) known.refused = feedback;
     if (word.what == What::column) known.refused = feedback;
     if (word.what == What::output)
-      known.refused = "is an output, which nothing that acts on the motion may name: write its expression here";
+      known.refused = "is an output, which only outputs and conditions of events may name: write its expression here";
   }
   return out;
 }

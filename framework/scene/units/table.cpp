@@ -187,8 +187,8 @@ class GridReader {
     }
     line_ = 0;
     if (grid_.a.size() < 2 || grid_.b.size() < 2)
-      fail("holds a grid of " + std::to_string(grid_.a.size()) + " by " + std::to_string(grid_.b.size()) + "; it needs two lines for " +
-           names_[0] + " and two columns for " + names_[1] + " at the least");
+      fail("holds a grid of " + std::to_string(grid_.a.size()) + " by " + std::to_string(grid_.b.size()) +
+           "; it needs at least two lines for " + names_[0] + " and two columns for " + names_[1]);
     return std::move(grid_);
   }
 
@@ -201,7 +201,7 @@ class GridReader {
     while (begin < words.size() && !number(words[begin])) ++begin;
     corner_ = begin == 0;
     for (; begin < words.size(); ++begin) head_.emplace_back(words[begin]);
-    if (head_.empty()) fail("its first line holds no numbers; write those of " + names_[1] + " there, behind a word");
+    if (head_.empty()) fail("its first line holds no numbers; write those of " + names_[1] + " there, after a word");
   }
   double finite(std::string_view word) const {
     const std::optional<double> value = number(word);

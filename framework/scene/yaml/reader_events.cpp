@@ -37,7 +37,7 @@ void refuse_output(const Node& node, const std::string& name, const Scene& scene
   std::vector<std::string> parts;
   for (const SceneState& s : scene.states)
     if (s.place.key == output->place.key) parts.push_back("\"" + s.name + "\"");
-  node.fail("\"" + name + "\" is no state but follows from others" +
+  node.fail("\"" + name + "\" is not a state: it is computed from others" +
             (parts.empty() ? "; set a state or a parameter that it names" : "; set one of its states: " + listed(parts)));
 }
 
@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const 
       for (const auto& [parameter, value] : scene.parameters) known.push_back(parameter);
       if (const Scope* own = node.source().scope(node.yaml().scope); own && own->own.contains(node.name()))
         node.fail("\"" + node.name() +
-                  "\" is a parameter of the assembly, and the scene's alone can be set; make it a state of the assembly: states: {" +
+                  "\" is a parameter of the assembly, and only those of the scene can be set; make it a state of the assembly: states: {" +
                   node.name() + "_now: {rate: 0, start: " + node.name() + "}}");
       node.fail(
           "there is no state \"" + node.name() + "\", and no parameter" +

@@ -128,7 +128,7 @@ void doubt_bare_law(const Node& law, const Law& read) {
   if (std::ranges::any_of(spell(read.text, {law.source().parameters}), named)) return;
   law.source().doubts->push_back(SceneError(law.source().file, law.place(),
                                             law.shown() + " without units is in rad, " + number_text(read.at(0).value / turn, 3) +
-                                                " turns at the start; if degrees are meant, write deg behind its numbers, else rad")
+                                                " turns at the start; if degrees are meant, write deg after its numbers, otherwise rad")
                                      .what());
 }
 

@@ -102,8 +102,9 @@ void read_start_entry(const Node& node, const StartNames& names, Scene& scene) {
     scene.start_journals.push_back(read_start_journal(node));
   } else if (joint) {
     node.fail(joint->play || is_open(*joint)
-                  ? "the clearance of \"" + name + "\" starts where its bodies are; give one of these bodies a start off the middle"
-                  : "the joint \"" + name + "\" has no clearance, so no start of its journal; give it one, or give the start of a body");
+                  ? "the clearance of \"" + name + "\" starts where its bodies are; instead give one of these bodies a start position"
+                  : "the joint \"" + name +
+                        "\" has no clearance, so its journal has no start; give the joint a clearance, or give the start of a body");
   } else {
     std::vector<std::string> known;
     for (const SceneBody& b : scene.bodies) known.push_back(b.name);

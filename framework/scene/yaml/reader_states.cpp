@@ -66,7 +66,8 @@ MadeOfStates limited_rate_of(const Node& node, const Dimension& d) {
   if (most.is_list()) {
     const std::vector<Node> ends = most.items(2, "one rate, or the least and the greatest: [-1 rad/s, 3 rad/s]");
     least = ends[0].quantity(rate), greatest = ends[1].quantity(rate);
-    if (!(least < 0 && greatest > 0)) most.fail(most.shown() + " leaves no way down or none up; write for example [-1 rad/s, 3 rad/s]");
+    if (!(least < 0 && greatest > 0))
+      most.fail(most.shown() + " must allow both directions, down below 0 and up above 0; write for example [-1 rad/s, 3 rad/s]");
   } else {
     greatest = most.quantity(rate, rule::positive), least = -greatest;
   }
@@ -78,8 +79,7 @@ struct Gains {
   Quantity proportional, integral, derivative;
 };
 Gains gains_of(const Node& node) {
-  constexpr const char* remedy =
-      "three gains, of the error, its integral and its rate, 0 for what is not there: [40 N m, 15 N m/s, 4 N m s]";
+  constexpr const char* remedy = "three gains, of the error, its integral and its rate, 0 for absent terms: [40 N m, 15 N m/s, 4 N m s]";
   need_key(node, "gains", "[40 N m, 15 N m/s, 4 N m s]");
   const std::vector<Node> list = node.at("gains").items(3, remedy);
   const Gains out{quantity_of(list[0], remedy), quantity_of(list[1], remedy), quantity_of(list[2], remedy)};
@@ -94,9 +94,8 @@ double tracking_of(const Node& node, const Gains& k) {
   const double time = k.proportional.value / k.integral.value;
   if (time > 0) return time;
   node.fail(
-      "does not say how fast its integral goes back from beyond the limits; add tracking: 0.1 s (by default the gain of the error over "
-      "that of "
-      "its integral, if both have one sign)");
+      "does not say how fast its integral returns from beyond the limits; add tracking: 0.1 s (by default the gain of the error over "
+      "that of its integral, if both have the same sign)");
 }
 
 std::optional<std::array<double, 2>> limits_of(const Node& node, const Dimension& d) {
@@ -139,7 +138,7 @@ MadeOfStates pid_of(const Node& node, const Dimension& d) {
   if (!led_back && node.has("tracking")) node.at("tracking").fail("belongs to limits and a gain of the integral; leave it out");
   if (k.integral.value == 0) {
     if (node.has("start"))
-      node.at("start").fail("is where the integral starts, and this one has none; leave it out (unit says what it is measured in)");
+      node.at("start").fail("is where the integral starts, but this pid has no integral; leave it out (unit says what it is measured in)");
     return out;
   }
   std::string rate = exact_text(k.integral) + "*" + e;
@@ -193,7 +192,8 @@ MadeOfStates made_of_states(const Node& node, const std::string& kind, const Dim
 void check_part_name(const Node& node, const std::string& part, const Scene& scene, const Node& root) {
   const bool taken = root.at("states").has(part) || (root.has("outputs") && root.at("outputs").has(part)) ||
                      std::ranges::find(scene.states, part, &SceneState::name) != scene.states.end();
-  if (part != node.name() && taken) node.fail("has a state \"" + part + "\" of its own, and so is called another; rename one of them");
+  if (part != node.name() && taken)
+    node.fail("has a state \"" + part + "\" of its own, but something else already has this name; rename one of them");
 }
 
 std::string hint_of_unit(const Node& node) {
@@ -233,7 +233,7 @@ void blame_gains(const Node& node, const std::string& e, const Dimension& d, con
   const auto fits = [&](const MadeByGain& one) { return same(one.dimension, d); };
   const bool agree = std::ranges::all_of(made, [&](const MadeByGain& one) { return same(one.dimension, made.front().dimension); });
   if (const auto unit = says_unit(node); unit && agree && !fits(made.front()))
-    fail_for_unit(*unit, unit->shown(), d, made.front().dimension, ", as gains make of the error");
+    fail_for_unit(*unit, unit->shown(), d, made.front().dimension, ", as the gains require");
   const auto wrong = std::ranges::find_if_not(made, fits);
   if (wrong == made.end()) return;
   const Node gain = node.at("gains").items(3, "three gains")[wrong->gain];

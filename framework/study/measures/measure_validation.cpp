@@ -43,7 +43,7 @@ std::string those_that_bend(const Scene& scene) {
   Names names;
   for (const SceneBody& b : scene.bodies)
     if (bends(b)) names.push_back(b.name);
-  return names.empty() ? "every body of the scene is rigid" : "flexible are " + some_of(names, false);
+  return names.empty() ? "every body of the scene is rigid" : "the flexible bodies are " + some_of(names, false);
 }
 
 /// "coil.depth" of a spring, "main.normal" of an ideal joint, which no case can have.

@@ -33,7 +33,7 @@ class Reading {
       words_.back_to(begin);
       const bool formula = words_.rest().find('.') != std::string::npos || looks_like_a_formula(words_.rest());
       fail("\"" + words_.rest() +
-           "\" is nothing that can be measured; write for example peak force at JOINT, x of BODY.POINT at 0.05 s, "
+           "\" cannot be measured; write for example peak force at JOINT, x of BODY.POINT at 0.05 s, "
            "rms torque of DRIVER after 10 ms, energy lost, or an expression such as coil.length - 3 mm (docs/studies.md)." +
            (formula && !why_not_.empty() ? " As an expression: " + why_not_ + "." : "") + described(measurables_));
     }
@@ -49,7 +49,7 @@ class Reading {
   Asked read_path() {
     const std::string& point = measure_.path->point;
     if (std::ranges::find(measurables_.points, point) == measurables_.points.end())
-      fail("\"" + point + "\" is no point of a body of this scene." + did_you_mean(point, measurables_.points));
+      fail("\"" + point + "\" is not a point of a body of this scene." + did_you_mean(point, measurables_.points));
     is(What::path, "m", "", point);
     asked_.statistic = Statistic::rms;
     validate_analysis();
@@ -82,7 +82,7 @@ class Reading {
   bool read_end() {
     const std::size_t before = words_.place();
     if (!words_.take_any({"time of end", "time of the end", "end time", "duration of the run"}).empty() && words_.done()) {
-      if (!over_time(measure_.question)) fail("it takes no time; ask for something else");
+      if (!over_time(measure_.question)) fail("this analysis has no duration; ask for something else");
       return is(What::end, "s");
     }
     words_.back_to(before);
@@ -218,7 +218,7 @@ class Reading {
     if (!words_.take_any({"longest free flight", "longest flight"}).empty() ||
         (asked_.statistic != Statistic::none && !words_.take_any({"free flight"}).empty())) {
       if (asked_.statistic != Statistic::none && asked_.statistic != Statistic::greatest && asked_.statistic != Statistic::peak)
-        fail("of free flights the longest alone is known; write longest free flight");
+        fail("only the longest free flight is known; write longest free flight");
       asked_.statistic = Statistic::none;
       return is(What::free_flight, "s", "", may_have(measurables_.walls));
     }
@@ -230,8 +230,7 @@ class Reading {
     words_.skip_articles();
     for (const AccountWord& a : account_words)
       if (words_.take(a.words)) return a.column;
-    fail("\"" + words_.rest() +
-         "\" is nothing that energy is lost to; write friction, hysteresis, damper, damping or numerical dissipation");
+    fail("\"" + words_.rest() + "\" is not a kind of energy loss; write friction, hysteresis, damper, damping or numerical dissipation");
   }
 
   bool read_lost() {
@@ -327,7 +326,7 @@ class Reading {
     const std::string rest = words_.rest();
     if (how.empty())
       fail("\"" + rest +
-           "\" is not understood; after what is measured may stand a time: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in "
+           "\" is not understood; a time may follow the quantity: at 0.05 s, after 10 ms, before 1 s, from 10 ms to 20 ms, in "
            "the last 5 ms." +
            described(measurables_));
     if (how.starts_with("at")) return instant(time(rest));
@@ -349,17 +348,17 @@ class Reading {
     const bool motion = asked_.what == What::motion || asked_.what == What::distance || asked_.what == What::path ||
                         (asked_.what == What::written && is_of_motion(scene_, asked_));
     if (analysis == Analysis::kinematics && !motion)
-      fail("kinematics knows motion alone; write for example range of x of BODY.POINT, or analysis: inverse for forces");
+      fail("kinematics computes motion only; write for example range of x of BODY.POINT, or analysis: inverse for forces");
     const bool of_the_ledger =
         asked_.what == What::energy || cumulative(asked_.what) || (asked_.what == What::column && asked_.owner.empty());
     if (of_the_ledger)
       fail(std::string(analysis == Analysis::statics ? "statics" : "inverse") +
-           " keeps no account of energies and impacts; ask for forces or motion, or write analysis: run");
+           " does not record energies and impacts; ask for forces or motion, or write analysis: run");
     if (analysis != Analysis::statics) return;
     if (asked_.statistic != Statistic::none || asked_.instant || asked_.frequency || asked_.time_of)
       fail(
-          "statics finds one state, so nothing has a time, a peak or a mean; write for example force at JOINT, x of BODY (the instant "
-          "whose loads count is the study's key at)");
+          "statics finds one state, so nothing has a time, a peak or a mean; write for example force at JOINT, x of BODY (the study's "
+          "key `at` gives the instant of the loads)");
     asked_.instant = true, asked_.from = asked_.to = measure_.question.at.value_or(0);
   }
 
@@ -370,13 +369,13 @@ class Reading {
       fail("an instant has one value; leave out the word before what is measured, or give a window: after 10 ms, before 1 s");
     if (events && (asked_.statistic != Statistic::none && asked_.statistic != Statistic::last))
       fail("it is one number of a run; leave out the word before it");
-    if (events && (asked_.frequency || asked_.time_of)) fail("it is no function of time; it has no frequency and no time of a peak");
+    if (events && (asked_.frequency || asked_.time_of)) fail("it is not a function of time, so it has no frequency and no time of a peak");
     if (asked_.time_of && asked_.statistic != Statistic::peak && asked_.statistic != Statistic::greatest &&
         asked_.statistic != Statistic::least)
-      fail("a time is that of the peak, greatest or least; write time of peak WHAT");
+      fail("a time can only be that of the peak, greatest or least; write time of peak WHAT");
     if (asked_.statistic == Statistic::none && !asked_.instant && !asked_.frequency && !cumulative(asked_.what))
       fail(
-          "it changes in time, and nothing says which of its values is meant; write peak, greatest, least, mean, rms, range or final "
+          "it changes in time, and it is not clear which of its values is meant; write peak, greatest, least, mean, rms, range or final "
           "before it, or at 0.05 s after it");
   }
 

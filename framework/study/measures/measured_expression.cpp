@@ -51,7 +51,7 @@ std::optional<MeasuredExpression> measured_expression(const std::string& text, c
       why = error.what();
       for (const auto& [parameter, value] : scene.parameters)
         if (why.find("\"" + parameter + "\" is neither") != std::string::npos)
-          why = "parameters do not stand in measures: name an output of the scene that has " + parameter;
+          why = "parameters are not allowed in measures: name an output of the scene that equals " + parameter;
     }
   }
   return {};

@@ -71,9 +71,9 @@ AskedMode read_mode_measure(const Measure& m, const Scene& scene) {
   } else if (known && !words.done()) {
     known = false;
   }
-  if (!known) fail_words(m, scene, "\"" + m.words + "\" is nothing that " + (of_body ? "modes" : "linearize") + " finds; " + remedy);
+  if (!known) fail_words(m, scene, "\"" + m.words + "\" is not a result of " + (of_body ? "modes" : "linearize") + "; " + remedy);
   if (of_body && out.part != ModePart::frequency && out.part != ModePart::natural && out.part != ModePart::damping)
-    fail_words(m, scene, "the modes of one body have a frequency and a damping ratio alone; " + remedy);
+    fail_words(m, scene, "the modes of one body have only a frequency and a damping ratio; " + remedy);
   return out;
 }
 

@@ -59,7 +59,8 @@ class Shooting {
         neighbour_(model.system, model.scheme, near) {}
 
   Cycle find(const CycleGuess& guess, const std::function<std::vector<double>(Integrator&)>& read) {
-    if (guess.size() != scales_.size()) throw OrbitTrouble{no_orbit, "the scene has other coordinates than at the previous value"};
+    if (guess.size() != scales_.size())
+      throw OrbitTrouble{no_orbit, "the scene has different coordinates from those at the previous value"};
     point_ = near_.y.head(scales_.size());
     VectorXd from_motion = guess - point_;
     without_turns(model_.system, from_motion);
@@ -97,7 +98,7 @@ class Shooting {
     if (run_.interval > 0) return go_to(integrator, begun + k * run_.interval, go_on_);
     while (go_to_return(integrator, begun + run_.longest, go_on_))
       if (integrator.state().t - begun > at_once * run_.expected) return;
-    throw OrbitTrouble{no_orbit, "no return within " + number_text(run_.longest, 6) + " s of a point tried"};
+    throw OrbitTrouble{no_orbit, "no return within " + number_text(run_.longest, 6) + " s after a trial point"};
   }
 
   void go_round(Integrator& integrator) const {

@@ -71,8 +71,10 @@ class Neighbours {
     const MatrixXd grown = R_.triangularView<Eigen::Upper>().transpose().solve(after.transpose()).transpose();
     orthonormalise(grown, Q_, R_);
     if (!(R_.diagonal().array() > 0).all() || !R_.allFinite())
-      throw OrbitTrouble{"failed", "t = " + number_text(until, 6) +
-                                       " s: a neighbour has fallen onto the motion; shorten lyapunov.every, or ask for fewer exponents"};
+      throw OrbitTrouble{
+          "failed",
+          "t = " + number_text(until, 6) +
+              " s: a neighbour can no longer be distinguished from the motion; shorten lyapunov.every, or ask for fewer exponents"};
     return R_.diagonal().array().log();
   }
 

@@ -115,7 +115,9 @@ LyapunovQuestion read_lyapunov(const Node& node, const ExpressionCheck& expressi
 CycleQuestion read_cycle(const Node& node, const std::optional<SectionQuestion>& section) {
   check_keys(node, "study.orbit");
   if (!section)
-    node.fail("is a fixed point of a section's returns; add for example section: {every: 2*pi/omega, record: {height: ball.y}}");
+    node.fail(
+        "needs a section, because an orbit is a fixed point of its returns; add for example section: {every: 2*pi/omega, record: {height: "
+        "ball.y}}");
   CycleQuestion out;
   if (node.has("period")) out.period = read_count(node.at("period"), 1);
   if (out.period >= section->returns)

@@ -273,7 +273,8 @@ class Following {
     lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
     if (came_to_rest(model_.system, integrator.impacts(), *neighbours_begin_))
       out_.reason =
-          "a contact came to rest, where deviations vanish: exponents are -infinity, and their numbers say only how far rounding goes";
+          "a contact came to rest, where deviations vanish: exponents are -infinity, and their finite values show only the effect of "
+          "rounding";
   }
 
   const OrbitQuestion& question_;

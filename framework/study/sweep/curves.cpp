@@ -32,7 +32,7 @@ std::string read_curve(const fs::path& folder, const std::pair<const std::string
   std::error_code error;
   if (!fs::exists(path, error) && !error) throw FileRefused("is missing");
   std::string text = read_file(path, most_bytes);
-  if (fingerprint_text(fingerprint(text)) != noted.second) throw FileRefused("is not as its case wrote it: it is torn or was changed");
+  if (fingerprint_text(fingerprint(text)) != noted.second) throw FileRefused("is not as its case wrote it: it was cut off or changed");
   return text;
 }
 

@@ -30,7 +30,7 @@ std::string text_in_part(const fs::path& path) {
   try {
     return read_file(path, most_bytes);
   } catch (const FileRefused& rejected) {
-    throw SceneError(path.string() + ": " + rejected.what() + "; run this part again, which writes the file anew");
+    throw SceneError(path.string() + ": " + rejected.what() + "; run this part again, which rewrites the file");
   }
 }
 
@@ -49,7 +49,7 @@ Found found_in(const fs::path& folder) {
          ", but this is pintle " PINTLE_VERSION "; merge the parts with that program, or run all of them again with this one");
   for (const auto& [name, print] : {std::pair("study.yaml", out.file.study_text), std::pair("scene.yaml", out.file.scene_text)})
     if (fingerprint_text(fingerprint(text_in_part(folder / name))) != print)
-      fail(std::string("its ") + name + " was changed after the part had begun; run this part again, which writes the file anew");
+      fail(std::string("its ") + name + " was changed after the part had begun; run this part again, which rewrites the file");
   return out;
 }
 
@@ -166,7 +166,7 @@ void validate_curves(const Found& part) {
     if (const std::string fault = fault_of_curves(part.folder, row); !fault.empty())
       throw SceneError(
           fault + "; copy the folder of " + part_text(part.file.part) +
-          " again with all that is in it, or remove that file if it is there and continue the part, which runs its case again: " +
+          " again with all its contents, or remove that file, if it exists, and continue the part, which runs its case again: " +
           command_for(part) + and_set);
 }
 

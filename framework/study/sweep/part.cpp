@@ -84,7 +84,7 @@ std::string part_json(const PartFile& p) {
 
 PartFile read_part_file(const std::string& path, const std::string& text) {
   const Json j = Json::parse(text, nullptr, false);
-  const std::string damaged = path + ": is damaged; run this part again with pintle sweep STUDY --shard I/N, which writes it anew";
+  const std::string damaged = path + ": is damaged; run this part again with pintle sweep STUDY --shard I/N, which rewrites it";
   PartFile out;
   try {
     out = {{j.at("part"), j.at("of")},

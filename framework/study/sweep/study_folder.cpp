@@ -28,7 +28,7 @@ void open_folder(const fs::path& folder) {
         !std::all_of(begin(entries), end(entries), [&](const auto& e) { return is_ours(e.path()); }))
       throw SceneError(folder.string(), {},
                        fs::exists(folder / "study.yaml")
-                           ? "has lost its journal-0.txt, which says what was done; remove the folder, or name another directory with --out"
+                           ? "lacks its journal-0.txt, which records what was done; remove the folder, or name another directory with --out"
                            : "exists already and contains no study; name another directory with --out");
   }
   fs::create_directories(folder, error);

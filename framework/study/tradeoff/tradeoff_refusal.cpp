@@ -56,7 +56,7 @@ void say_unknown(const TradeReport& r, std::vector<std::string>& said) {
     said.push_back(printed("Of the %s that ran, %zu certainly have a larger error than %s; for the others this is unknown.",
                            settings_text(r.ran()).c_str(), misses, percent_text(asked).c_str()));
   else
-    said.push_back(misses == 0 ? "For no setting that ran is it known whether its error is smaller or larger."
+    said.push_back(misses == 0 ? "It is unknown for every setting that ran whether its error is smaller or larger."
                                : "All " + settings_text(r.ran()) + " that ran certainly have a larger error.");
   say_remedy(r, said);
 }
