@@ -89,8 +89,8 @@ void warn_of_coarse_forces(const Model& model, bool implicit, Run& run) {
   constexpr double multiple = 5e3, much = 0.1;  // errors of forces over the tolerance, as docs/results.md promises; of the peak
   if (!implicit || model.system.joints.empty() || model.scheme.tolerance * multiple <= much) return;
   run.warnings.push_back("generalised-α at a tolerance of " + number_text(model.scheme.tolerance, 2) +
-                         " leaves errors of tens of per cent of their peaks in joint forces and in torques of drivers; "
-                         "tighten run.tolerance to 1e-6 if they matter");
+                         " leaves errors of several per cent of their peaks in joint forces and torques of drivers, of tens of per cent "
+                         "where a body rings; tighten run.tolerance to 1e-6 if they matter");
 }
 
 std::vector<std::string> never_came(const Scene& scene, const Run& run) {
