@@ -245,6 +245,7 @@ int judge(const Problem& p, const std::vector<Work>& all) {
     const Work *loose = nullptr, *tight = nullptr;
     for (const Work& w : all)
       if (w.method == method) (loose ? tight : loose) = &w;
+    if (!loose || !tight) continue;  // one tolerance shows no fall
     // Global errors stay proportional to the local ones; how much larger they are is the mechanism's own sensitivity.
     const bool holds = loose->trouble.empty() && tight->trouble.empty() && loose->error < 1 &&
                        (tight->error < loose->error || tight->error < tight->tolerance);

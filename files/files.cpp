@@ -122,7 +122,7 @@ std::vector<fs::path> readable_folders(const fs::path& folder) {
 
 fs::path contained_file(const fs::path& named, const fs::path& beside, const fs::path& folder) {
   std::error_code error;
-  const fs::path path = beside / named;
+  fs::path path = beside / named;
   const fs::path real = fs::weakly_canonical(path.is_absolute() ? path : fs::current_path() / path, error);
   if (error) throw FileRefused("\"" + named.string() + "\": its path cannot be resolved (" + error.message() + "); check it");
   const std::vector<fs::path> folders = readable_folders(folder);
