@@ -160,8 +160,9 @@ void FramePicture::fit() {
     const Eigen::AlignedBox2d before = world_, wide = with_arrows();
     if (before.contains(wide)) break;
     world_ = before.merged(wide);
-    world_.min() = world_.center() + close * (world_.min() - world_.center());  // or each round would add less, and never all
-    world_.max() = world_.center() + close * (world_.max() - world_.center());
+    const Eigen::Vector2d middle = world_.center();
+    world_.min() = middle + close * (world_.min() - middle);  // or each round would add less, and never all
+    world_.max() = middle + close * (world_.max() - middle);
     choose_scale();
   }
   shortened_ = arrow_share();

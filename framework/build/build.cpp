@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -220,7 +221,7 @@ class Builder {
     contacts.insert(contacts.end(), made.pairs.begin(), made.pairs.end());
     model_.system.contact_names.insert(model_.system.contact_names.end(), made.pairs.size(), name);
     model_.contacts.push_back(std::move(made.words));
-    if (!made.warning.empty()) model_.warnings.push_back(std::move(made.warning));
+    std::ranges::move(made.warnings, std::back_inserter(model_.warnings));
   }
 
   const Profile& profile(const PointRef& ref) {

@@ -246,12 +246,12 @@ BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Prof
     s << quoted(c.name) << ": a profile has a hollow of radius " << hollow
       << " m, too narrow for the other profile to reach its bottom: that profile would touch both sides, and only one of these contacts is "
          "found; give it a smaller radius";
-    out.warning = s.str();
+    out.warnings.push_back(s.str());
   }
   if (!c.impact && has_sharp_corners(a) && has_sharp_corners(b))
-    out.warning = quoted(c.name) +
-                  ": both profiles have sharp corners; if two corners meet, there is no contact force and energy is created; give one of "
-                  "the profiles `round`";
+    out.warnings.push_back(quoted(c.name) +
+                           ": both profiles have sharp corners; if two corners meet, there is no contact force and energy is created; give "
+                           "one of the profiles `round`");
   return out;
 }
 

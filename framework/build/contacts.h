@@ -18,9 +18,9 @@ Profile profile_of(const Scene&, const Markers&, const PointRef& ref);
 
 /// A contact of two profiles.
 struct BuiltContact {
-  std::vector<ContactPair> pairs;  ///< of pieces that may touch
-  std::string words;               ///< "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction; 8 pairs of pieces"
-  std::string warning;             ///< why it is doubtful; empty: it is not
+  std::vector<ContactPair> pairs;          ///< of pieces that may touch
+  std::string words;                       ///< "stiffness 1e9 N/m^1.5, restitution delivered 0.8, no friction; 8 pairs of pieces"
+  std::vector<std::string> warnings = {};  ///< why it is doubtful
 };
 /// The laws of a contact, as a pair without pieces and markers.
 /// @throws SceneError  invalid laws; elasticity where a profile has no single radius

@@ -235,6 +235,28 @@ TEST(SavedState, RefusesAnotherLawMadeInCpp) {
   EXPECT_TRUE(says(refusal(other, text), "another scene"));
 }
 
+// Laws of signals that differ only early in a run, or only for small signals.
+TEST(SavedState, RefusesAnotherLawOfSignalsMadeInCpp) {
+  const auto pushed = [](const SignalFunction& law) {
+    Scene s = swinging();
+    s.loads = {
+        torque("push", "bob", {.text = "made in C++", .constant = false, .of_signals = law, .signals = {"bob.speed"}, .uses_time = true})};
+    return Ran(s);
+  };
+  const auto brake = [](double early, double slow) {
+    return [=](double t, const double* in, double* slope) {
+      const double c = (t > 0 && t < 1e-3 ? early : 1) * (in[0] < 0 && in[0] > -1e-2 ? slow : 1);
+      if (slope) slope[0] = -1e-3 * c;
+      return -1e-3 * c * in[0];
+    };
+  };
+  const Ran ran = pushed(brake(1, 1));
+  const std::string text = ran.text();
+  EXPECT_EQ(refusal(pushed(brake(1, 1)), text), "accepted");
+  EXPECT_TRUE(says(refusal(pushed(brake(2, 1)), text), "another scene"));
+  EXPECT_TRUE(says(refusal(pushed(brake(1, 2)), text), "another scene"));
+}
+
 TEST(SavedState, IsTakenWithAnotherTitleEndAndOutput) {
   Scene s = striking("auto");
   const Ran ran(s);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <new>
 
 #include <nlohmann/json.hpp>
@@ -27,18 +28,13 @@ class Sum : public ValueWriter<Sum> {
   void bytes(std::string_view some) { sum_.add(some); }
   std::string take() { return sum_.hex(); }
 
-  /// Samples it forty times per decade from a microsecond to ten days.
   void add(const TimeLaw& law) {
     if (!law) return add(false);
-    constexpr int decades = 12, each = 40;
-    for (int i = -1; i <= decades * each; ++i) try {
-        const Jet jet = law(i < 0 ? 0 : 1e-6 * std::pow(10, static_cast<double>(i) / each));
+    for (int i = -1; i <= samples; ++i)
+      sample([&] {
+        const Jet jet = law(i < 0 ? 0 : sampled(i));
         add(jet.value, jet.rate, jet.accel);
-      } catch (const std::bad_alloc&) {
-        throw;
-      } catch (const std::exception& outside) {  // outside the law's range
-        add(std::string(outside.what()));
-      }
+      });
   }
 
   template <class Kind>
@@ -159,15 +155,17 @@ class Sum : public ValueWriter<Sum> {
     const auto& [kind, a, b, offset] = signal;
     add(kind, a, b, offset);
   }
-  /// Samples it with all signals equal to 0, 1, 2 …, at the times used for a law of time.
+  /// Samples it at the times used for a law of time, with signals of both signs over the same decades.
   void add(const SignalLaw& law) {
     const auto& [of, in, sided, first_side] = law;  // the sides belong to the same function
     add(in);
     std::array<double, most_law_inputs> at;
-    for (int i = 0; i < 32; ++i) {
-      for (std::size_t k = 0; k < at.size(); ++k) at[k] = i * (1 + 0.1 * static_cast<double>(k)) / 4;
-      add(of(i, at.data(), nullptr));
-    }
+    for (int i = -1; i <= samples; ++i)
+      sample([&, &value = of] {
+        const double size = i < 0 ? 0 : (i % 2 == 0 ? 1 : -1) * sampled(7 * i % samples);
+        for (std::size_t k = 0; k < at.size(); ++k) at[k] = size * (1 + 0.1 * static_cast<double>(k));
+        add(value(i < 0 ? 0 : sampled(i), at.data(), nullptr));
+      });
   }
   void add(const OwnState& state) {
     const auto& [name, unit, scale, start, rate] = state;
@@ -188,6 +186,20 @@ class Sum : public ValueWriter<Sum> {
   }
 
  private:
+  static constexpr int decades = 12, each = 40, samples = decades * each;
+  /// From a microsecond to ten days, or numbers as large.
+  static double sampled(int i) { return 1e-6 * std::pow(10, static_cast<double>(i) / each); }
+  /// What a law says outside its range is added too.
+  void sample(const std::function<void()>& add_value) {
+    try {
+      add_value();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& outside) {
+      add(std::string(outside.what()));
+    }
+  }
+
   Sha256 sum_;
 };
 
