@@ -23,8 +23,8 @@ struct Estimate {
   double low = 0, likely = 0, high = 0;
 };
 
-/// Estimates the steps of a whole run from a part: the steps so far, and for the rest the rate in the second half of the part; as bounds
-/// the rates of its quarters, except the first, which contains the start-up.
+/// Estimates the steps of a whole run from a part of it: the steps so far, plus the rest at the step rate of the part's second half. The
+/// bounds use the rates of its quarters, except the first, which contains the start-up.
 /// @param ends  times at which the steps ended, ascending, of a run from 0 [s]
 Estimate steps_of_run(const std::vector<double>& ends, double until);
 
@@ -70,9 +70,9 @@ struct CostEstimate {
   std::vector<std::string> untried;  ///< simplifications not tried for lack of time
 };
 
-/// Tries out the run and simpler ones, each for its share of the time; those that end earlier are run completely. Meshes nothing and writes
-/// nothing except, if the scene has frames, a few in a temporary folder.
-/// @param seconds  total computing time of the trials; it determines their lengths by counts, not by the clock
+/// Tries the run and simpler ones, each for its share of the time; runs that end earlier are complete. Meshes nothing, and writes nothing
+/// except a few frames in a temporary folder if the scene has frames.
+/// @param seconds  total computing time of the trials [s]; sets their lengths by numbers of steps, not by the clock
 /// @throws std::runtime_error  a frame cannot be written
 CostEstimate estimate_cost(const Scene&, const Model&, const Assembly&, double seconds = 1);
 

@@ -27,7 +27,7 @@ class Sum : public ValueWriter<Sum> {
   void bytes(std::string_view some) { sum_.add(some); }
   std::string take() { return sum_.hex(); }
 
-  /// Samples it forty times per decade from a microsecond to ten days.
+  /// Samples it at 0 and forty times per decade from 1e-6 s to 1e6 s (eleven days).
   void add(const TimeLaw& law) {
     if (!law) return add(false);
     constexpr int decades = 12, each = 40;
@@ -159,7 +159,7 @@ class Sum : public ValueWriter<Sum> {
     const auto& [kind, a, b, offset] = signal;
     add(kind, a, b, offset);
   }
-  /// Samples it with all signals equal to 0, 1, 2 …, at the times used for a law of time.
+  /// Samples it at t = 0, 1 … 31 s, with signal k (from 0) equal to t (1 + 0.1 k)/4 in SI units.
   void add(const SignalLaw& law) {
     const auto& [of, in, sided, first_side] = law;  // the sides belong to the same function
     add(in);

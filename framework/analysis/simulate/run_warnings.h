@@ -15,7 +15,8 @@ void warn_of_pushing(const System&, Run&);
 void warn_of_lifting(const System&, Run&);
 /// Explicit steps limited by stability instead of accuracy, with a remedy. @param share  of the steps
 void warn_of_stiffness(const Scene&, const Model&, double share, Run&);
-/// Joint forces that generalised-α at this tolerance gives to tens of per cent only. @param implicit  it made the run, or its last part
+/// Joint forces that generalised-α computes at this tolerance with errors of up to tens of per cent. @param implicit  it made the run, or
+/// its last part
 void warn_of_coarse_forces(const Model&, bool implicit, Run&);
 /// Events of the scene that have not occurred in the run so far.
 std::vector<std::string> never_came(const Scene&, const Run&);
