@@ -8,7 +8,7 @@
 #include "framework/bodies/mechanism_body.h"
 #include "framework/bodies/modal_choice.h"
 
-/// Information on a flexible body that a user should have before trusting a run.
+/// Information on flexible bodies that a user needs to judge a run.
 namespace pintle {
 
 /// Limits of the deflection within the frame, relative to the body's size, and of the slope, beyond which a linear body in a single frame
@@ -49,7 +49,7 @@ struct FrequencyChange {
   double by_rotation = 0, by_all_loads = 0;  ///< due to inertia loads, due to all loads
 };
 
-/// Data with which a run determines how its loads would stiffen or soften a body.
+/// Data with which a run estimates how much its loads stiffen or soften a body.
 struct StiffeningProbe {
   std::string body;
   int index = 0;  ///< into System::bodies
