@@ -32,7 +32,7 @@ class Markers {
   Marker marker_at(const PointRef&, Holds) const;
   /// Its index in System::markers; created at the first call.
   int marker(const PointRef&, Holds = Holds::point);
-  /// Marker at this point with the body's own axes as drawn: it carries a surface.
+  /// Marker at this point with the body's own axes as drawn, to carry a surface.
   int carrier(const PointRef&);
   /// Position of a point in the drawn body, body axes [m].
   Eigen::Vector2d place(const PointRef&) const;
