@@ -62,7 +62,7 @@ double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, co
   return greatest;
 }
 
-/// The port where a joint pins the body to the ground, −1 if none does.
+/// The port where a revolute or a weld holds the body on the ground, −1 if none does.
 int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
     if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;

@@ -75,8 +75,8 @@ StiffeningProbe stiffening_probe(const MechanismBody&, int index);
 /// For a history of loads. @param factor  loads × times, as LoadHistory
 FrequencyChange frequency_change(const Eigen::VectorXd& omega, const std::vector<Eigen::MatrixXd>& F, const Eigen::MatrixXd& factor);
 MotionEstimate motion_estimate(const MechanismBody&, const LoadHistory&);
-/// Relative change of the first frequency due to steady rotation at `spin`, about the first of its points that a joint pins to the ground,
-/// otherwise about the mass centre.
+/// Relative change of the first frequency due to steady rotation at `spin`, about the point where the scene's first revolute or weld holds
+/// it on the ground, otherwise about the mass centre.
 double stiffened_by_spin(const Scene&, const MechanismBody&, double spin);
 /// Spin given to the body by drivers on the ground or by `start` [rad/s]; 0: none is directly given.
 double given_spin(const Scene&, const std::string& body);

@@ -8,8 +8,8 @@
 
 namespace pintle {
 
-/// How fast a system would oscillate by itself and how fast it is driven, estimated from its parts alone: linear in their number, before
-/// any configuration is known.
+/// The rates at which a system would oscillate by itself and is driven, estimated from its parts alone, before any configuration is known,
+/// in time linear in their number.
 struct RateSpectrum {
   struct Part {
     double rate = 0;        ///< as an undamped oscillation [rad/s]

@@ -36,7 +36,7 @@ class Markers {
   int carrier(const PointRef&);
   /// Position of a point in the drawn body, body axes [m].
   Eigen::Vector2d place(const PointRef&) const;
-  /// As its motion is recorded: second order unless it is held at first order.
+  /// Marker for recording the motion of a point: second order, unless joints hold it at first order.
   Marker recorded_at(const PointRef&) const;
 
   /// @throws SceneError  both are on one body

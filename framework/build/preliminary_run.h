@@ -13,7 +13,7 @@ struct RigidRun {
   std::string trouble;  ///< why there is none, or why it ended early, in words
   double until = 0;     ///< reached [s]
   long steps = 0;
-  double seconds = 0;               ///< computing time
+  double seconds = 0;               ///< computing time [s]
   std::vector<LoadHistory> bodies;  ///< one per body of the scene; empty unless it has modes
   bool usable() const { return steps > 0; }
 };

@@ -77,7 +77,7 @@ RowSpace row_space_at(const System& system, double t, const VectorXd& y, double 
   return row_space(system, eq, tolerance);
 }
 
-/// One of them ends with the same row as d.
+/// Whether one of them ends with the same row as d.
 bool ends_among(const std::vector<Dependence>& all, const Dependence& d) {
   return std::any_of(all.begin(), all.end(), [&](const Dependence& e) { return e.N.back().first == d.N.back().first; });
 }

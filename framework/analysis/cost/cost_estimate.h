@@ -14,7 +14,7 @@ struct Trial {
   double reached = 0;     ///< [s] of the run
   bool whole = false;     ///< it reached the run's end: nothing needs to be estimated
   bool by_clock = false;  ///< stopped because it took too long
-  double seconds = 0;     ///< computing time, without outputs
+  double seconds = 0;     ///< computing time, without outputs [s]
   std::string trouble;    ///< why it could not continue, in words
 };
 
@@ -32,7 +32,7 @@ struct RunCost {
   Trial trial;
   Estimate steps;
   double step = 0;   ///< mean of the whole run, most likely value [s]
-  Estimate seconds;  ///< computing time without outputs, if steps take as long as in the trial
+  Estimate seconds;  ///< computing time without outputs, if steps take as long as in the trial [s]
 };
 
 /// What leaving something out would save.
@@ -46,7 +46,7 @@ struct Saving {
 /// Cost of the output.
 struct OutputCost {
   long rows = 0;            ///< of trajectory.csv and ledger.csv
-  double row_seconds = 0;   ///< to compute, record and write one row
+  double row_seconds = 0;   ///< to compute, record and write one row [s]
   double row_bytes = 0;     ///< of both files, as text
   std::size_t columns = 0;  ///< of both
   int frames = 0;
@@ -64,7 +64,7 @@ struct CostEstimate {
   double until = 0;         ///< [s]
   RunCost run;
   OutputCost output;
-  Estimate seconds;             ///< total: computing and outputs
+  Estimate seconds;             ///< total: computing and outputs [s]
   double memory = 0;            ///< at the end: present memory of the program, plus likely impacts; rows are written as they come [bytes]
   std::vector<Saving> simpler;  ///< the largest first
   std::vector<std::string> untried;  ///< simplifications not tried for lack of time

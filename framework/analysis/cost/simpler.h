@@ -17,8 +17,8 @@ struct Simpler {
 };
 
 /// One model for each simplification: flexible bodies rigid, with half their shapes (the lowest), or without geometric stiffness; ideal
-/// clearances; contacts without friction; a tolerance a hundred times as large. Bodies and clearances are simplified separately if there
-/// are few, and all together.
+/// clearances; no friction; a tolerance a hundred times as large, at most 1e-3. Bodies and clearances are simplified separately if there
+/// are at most three, and all together.
 /// @param start  of the model, assembled
 std::vector<Simpler> simpler_models(const Scene&, const Model&, const State& start);
 

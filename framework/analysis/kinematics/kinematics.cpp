@@ -41,7 +41,7 @@ std::vector<double> output_times(const Scene& scene) {
   return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
 }
 
-/// Of the animation; empty if there is none.
+/// Times of the frames; empty without an animation.
 std::vector<double> frame_times(const Scene& scene) {
   return scene.output.frames > 1 ? even_times(scene.run.until / (scene.output.frames - 1), scene.run.until) : std::vector<double>{};
 }

@@ -219,7 +219,7 @@ class Walk {
   std::vector<std::string> steps_;
 };
 
-/// Can the scalar be written unquoted in a flow list or map?
+/// Whether the scalar can be written without quotes in a flow list or map.
 bool plain(const std::string& s, bool inside) {
   if (s.empty() || s == "null" || s == "~" || s == "Null" || s == "NULL") return false;
   if (trimmed(s) != s || s.find_first_of("\n\r\t\"\\") != std::string::npos) return false;
