@@ -13,7 +13,7 @@ struct DriverEffort {
   std::string name;
   bool turns = true;             ///< torque [N m], otherwise thrust [N]
   std::vector<double> t, value;  ///< fine enough for a table in a scene, see `error`
-  double error = 0;              ///< largest error of a spline through the rows, midway between them, in the unit of `value`; NaN: unknown
+  double error = 0;  ///< largest error of a spline through every second row, at the others, in the unit of `value`; NaN: unknown
 };
 
 /// Driving efforts and joint forces of a driven mechanism.

@@ -7,7 +7,7 @@ namespace pintle {
 
 /// Penetration deeper than any contact law is valid for.
 void warn_of_depth(const System&, Run&);
-/// Checks over all rows cover only the rows of this run, which continues from a saved state.
+/// Says which checks over all rows cover only this run, because it continues from a saved state.
 void warn_of_gap(const System&, const Model&, const SavedState& from, Run&);
 /// A massless link that pushes: it keeps the journal at the wall even where a wall would have to pull.
 void warn_of_pushing(const System&, Run&);

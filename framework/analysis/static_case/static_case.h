@@ -27,10 +27,10 @@ struct StaticReport {
   std::vector<PortDisplacement> ports;
   Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, as in SupportReaction [N, N, N m]
   double greatest_displacement = 0;                ///< [m]
-  Eigen::Vector2d displaced_at;
-  double greatest_stress = 0;  ///< von Mises [Pa]
-  Eigen::Vector2d stressed_at;
-  double seconds = 0;
+  Eigen::Vector2d displaced_at;                    ///< body axes [m]
+  double greatest_stress = 0;                      ///< von Mises [Pa]
+  Eigen::Vector2d stressed_at;                     ///< body axes [m]
+  double seconds = 0;                              ///< elapsed time of the solution [s]
 };
 
 /// @throws SceneError  no static case in the scene, no or too few supports, a load that does not fit
