@@ -19,7 +19,7 @@ namespace {
 // A row or frame between steps costs one evaluation; with verner87, the first one in a step costs 25 more. Counting a whole step for each
 // row overestimates this, which keeps dopri5 where steps are few.
 const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, const Demand& d) {
-  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // tolerance; ratio of rates; share of the demand that a run takes on average
+  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // tolerance; ratio of rates; share of the demand of a smooth motion
   constexpr double read = 1000;                             // default number of rows; the actual number must not affect the motion
   const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
   const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
@@ -256,7 +256,7 @@ bool are_led_by_time(const System& system, double until) {
   });
 }
 
-/// Whether own states, which depend only on each other, are all that moves by a law: no forces, friction, contacts, shapes or drivers.
+/// Whether only own states move by laws, and their rates do not depend on time: no forces, friction, contacts, shapes or drivers.
 bool has_states_alone(const Scene& scene, const System& system) {
   return std::ranges::none_of(system.joints, [](const Joint& j) { return driver_law(j) != nullptr; }) && !system.states.empty() &&
          system.forces.empty() && system.frictions.empty() && system.contacts.empty() && system.n() == system.n_rigid() &&

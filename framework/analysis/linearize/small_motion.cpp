@@ -49,8 +49,8 @@ void fill_jacobian(const Equations& eq, MatrixXd& Cq) {
   visit_jacobian(eq, [&](int row, int column, double value) { Cq(row, column) += value; });
 }
 
-// As many columns as P has independent rows, chosen to determine the motion of the others best; columns of frames are preferred to columns
-// of shapes.
+// The dependent coordinates: as many well-conditioned columns as P has independent rows, which the other coordinates then determine.
+// Columns of frames are preferred, so that shapes stay independent where possible.
 std::vector<int> dependent_columns(const System& system, MatrixXd P) {
   constexpr double rank_threshold = 1e-9, of_shapes = 1e-3;
   if (P.rows() == 0) return {};
