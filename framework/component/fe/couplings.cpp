@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Smallest ratio of the extents of a rim, as seen from its centre, that still determines a rotation.
+// Smallest ratio of a rim's radius of gyration to its reach from the port that still determines a rotation.
 constexpr double degenerate = 1e-9;
 
 template <class... Parts>
