@@ -17,12 +17,12 @@ struct BuiltOrder {
   std::vector<int> contacts;  ///< into System::contacts, the first pair of each
 };
 
-/// Point where something acts on a body of elements: its wrench is the k-th of joints, contacts (for profiles the sum from there on) or
-/// forces.
+/// Point where a joint, a contact or a force acts on a body of elements. Its wrench is that of the k-th joint or force, or of the k-th
+/// contact (for profiles, the sum over all pairs from the k-th on).
 struct Attachment {
   enum Of { joint, contact, force } of;
   std::size_t k;
-  std::size_t end;  ///< at which of its markers: a, b, … or journal, bearing
+  std::size_t end;  ///< index of the marker: a, b, … or journal, bearing
   std::size_t body;
   Eigen::Index row;  ///< of the load history
 };

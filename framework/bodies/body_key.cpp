@@ -130,7 +130,7 @@ constexpr std::string_view outward[]{"Include", "Merge", "Open",    "File",     
                                      "Plugin",  "Today", "Cpu",     "Memory",     "Exists", "Define",  "Get",    "SetNumber", "SetString",
                                      "Current", "Path",  "DirName", "Executable", "MPI",    "General", "Solver", "External"};
 
-/// Whether a drawing may depend on more than its own text. Errs on the safe side: then it is only meshed again.
+/// Whether a drawing may depend on more than its own text. If in doubt true, which only costs another meshing.
 bool looks_beyond(const std::string& kind, const std::string& text) {
   const auto has = [&](std::string_view word) { return text.find(word) != std::string::npos; };
   if (kind == ".geo") return std::any_of(std::begin(outward), std::end(outward), has);

@@ -26,7 +26,7 @@ CellShape shape_of(const std::string& element) {
   return element == "quadrilateral9" ? CellShape::quadrilateral9 : CellShape::quadrilateral8;
 }
 
-/// Attributes errors in a drawing or mesh to the key that names it.
+/// Reports errors in a drawing or mesh at the key that names it.
 template <class Work>
 Mesh in_file(const Scene& scene, const SceneBody& body, Work&& work) {
   SceneBody named;

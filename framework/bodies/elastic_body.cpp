@@ -183,7 +183,7 @@ bool is_outline(const Mesh& mesh, const std::vector<Cells>& sides) {
   return begins == ends && twice_area > 0;
 }
 
-/// Checks that a point coupled to a part of a rim is in the middle of that part, not of the hole.
+/// Warns of a rim that is not one closed curve: its point is then the centre of that part, not of the hole. Rejects large single arcs.
 void validate_rim(const Scene& scene, const Mesh& mesh, const ScenePoint& p, const RimPort& port, const std::vector<Cells>& sides,
                   std::vector<std::string>& warnings) {
   constexpr double bent = 10 * std::numbers::pi / 180, round = 45 * std::numbers::pi / 180, on_circle = 0.02;

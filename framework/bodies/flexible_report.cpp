@@ -62,7 +62,7 @@ double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, co
   return greatest;
 }
 
-/// The port where a joint pins the body to the ground, −1 if none does.
+/// The port where a revolute or a weld holds the body on the ground, −1 if none does.
 int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
     if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
@@ -128,12 +128,12 @@ MotionEstimate motion_estimate(const MechanismBody& b, const LoadHistory& histor
   const MatrixXd work = work_of_loads(b.elastic, modes);
   MatrixXd Q = work * history.factor;
   const MatrixXd terms = work.cwiseAbs() * history.factor.cwiseAbs();
-  for (Index i = 0; i < Q.rows(); ++i)  // loads in equilibrium whose effect on a mode is only rounding
+  for (Index i = 0; i < Q.rows(); ++i)  // modal forces that are only the rounding of loads in equilibrium
     if (Q.row(i).lpNorm<Eigen::Infinity>() <= rounding_of_force * terms.row(i).maxCoeff()) Q.row(i).setZero();
   const MatrixXd eta = oscillator_response(modes.omega, b.body.flex->zeta, history.t, Q);
   out.spin = std::sqrt(history.factor.row(3).maxCoeff());
   out.excited_up_to = excited_up_to(history.t, Q, modes.omega);
-  // The field at the largest amplitude of each mode and at the largest mean square displacement.
+  // The field at the largest amplitude of each of the first three modes and at the largest mean square displacement.
   std::vector<Index> times(1);
   eta.colwise().squaredNorm().maxCoeff(&times[0]);
   for (Index i = 0; i < std::min<Index>(3, eta.rows()); ++i) eta.row(i).cwiseAbs().maxCoeff(&times.emplace_back());

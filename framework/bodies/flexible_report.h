@@ -8,7 +8,7 @@
 #include "framework/bodies/mechanism_body.h"
 #include "framework/bodies/modal_choice.h"
 
-/// Information on a flexible body that a user should have before trusting a run.
+/// Information on flexible bodies that a user needs to judge a run.
 namespace pintle {
 
 /// Limits of the deflection within the frame, relative to the body's size, and of the slope, beyond which a linear body in a single frame
@@ -49,7 +49,7 @@ struct FrequencyChange {
   double by_rotation = 0, by_all_loads = 0;  ///< due to inertia loads, due to all loads
 };
 
-/// Data with which a run determines how its loads would stiffen or soften a body.
+/// Data with which a run estimates how much its loads stiffen or soften a body.
 struct StiffeningProbe {
   std::string body;
   int index = 0;  ///< into System::bodies
@@ -75,8 +75,8 @@ StiffeningProbe stiffening_probe(const MechanismBody&, int index);
 /// For a history of loads. @param factor  loads × times, as LoadHistory
 FrequencyChange frequency_change(const Eigen::VectorXd& omega, const std::vector<Eigen::MatrixXd>& F, const Eigen::MatrixXd& factor);
 MotionEstimate motion_estimate(const MechanismBody&, const LoadHistory&);
-/// Relative change of the first frequency due to steady rotation at `spin`, about the first of its points that a joint pins to the ground,
-/// otherwise about the mass centre.
+/// Relative change of the first frequency due to steady rotation at `spin`, about the point where the scene's first revolute or weld holds
+/// it on the ground, otherwise about the mass centre.
 double stiffened_by_spin(const Scene&, const MechanismBody&, double spin);
 /// Spin given to the body by drivers on the ground or by `start` [rad/s]; 0: none is directly given.
 double given_spin(const Scene&, const std::string& body);

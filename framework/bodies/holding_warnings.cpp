@@ -11,7 +11,7 @@ namespace {
 
 struct Hold {
   std::string point;
-  bool clamps;  ///< a direction too
+  bool clamps;  ///< also fixes the direction
 };
 
 std::vector<Hold> holds_on(const Scene& scene, const MechanismBody& b) {
@@ -31,7 +31,7 @@ std::string tied_to(const MechanismBody& b) {
 
 bool keeps_all(const SceneKeep& k) { return !k.automatic && !k.count && !k.below && !k.effective_mass; }
 
-/// The name of the first of them, and the number of the others.
+/// The first name, and the number of the others.
 std::string first_of(const std::vector<std::string>& names) {
   return names.front() + (names.size() > 1 ? " (and " + std::to_string(names.size() - 1) + " more)" : "");
 }

@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// Runs `work`, and attributes errors of its callees to the place where the body is described.
+/// Runs `work`, and reports its errors at the place where the body is described.
 /// @throws SceneError  for every std::invalid_argument and std::runtime_error that is not one already
 template <class Work>
 decltype(auto) in_body(const Scene& scene, const SceneBody& body, Work&& work) {

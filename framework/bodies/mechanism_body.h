@@ -11,8 +11,8 @@
 
 namespace pintle {
 
-/// A body of elements as used in a mechanism: reduced to a few shapes if the scene has `modes`, otherwise rigid. It has the size of the
-/// finite-element model, and is discarded once the mechanism is built, unless it is drawn.
+/// A body of elements as used in a mechanism: reduced to a few shapes if the scene has `modes`, otherwise rigid. It is as large as the
+/// finite-element model, and is discarded once the mechanism is built, unless the body is drawn.
 struct MechanismBody {
   ElasticBody elastic;
   ReferenceConditions conditions;
@@ -41,7 +41,7 @@ MechanismBody mechanism_body(const Scene&, ElasticBody, std::optional<int> chose
 Marker marker_of(const Scene&, const MechanismBody&, int body, const PointRef&, bool turns);
 
 /// Modal coordinates of a body that starts deformed: as given, or those of least strain energy for the given displacements.
-/// @throws SceneError  more coordinates than shapes; a displacement that the shapes cannot represent, and which they can
+/// @throws SceneError  more coordinates than shapes; a displacement that the shapes cannot represent (the message gives the nearest one)
 Eigen::VectorXd bent_start(const Scene&, const MechanismBody&, const StartBody&);
 
 }  // namespace pintle

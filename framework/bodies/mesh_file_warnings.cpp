@@ -23,7 +23,7 @@ bool same_modulus(double file, double pascal) {
   return near(file * ten, pascal) || std::abs(file * 6894.757 - pascal) <= 1e-2 * pascal;
 }
 
-/// The largest distance between two points of one element of the scene other than `but`, or from its origin [m].
+/// The largest distance of a point of the ground, or of a body other than `but`, from the origin of its axes [m].
 double rest_of_scene(const Scene& scene, const SceneBody& but) {
   double size = 0;
   const auto add = [&](const std::vector<ScenePoint>& points) {

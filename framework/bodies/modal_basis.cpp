@@ -28,7 +28,7 @@ Keep keep_of(const SceneKeep& k, const std::optional<int>& chosen) {
   return {k.count, k.below, k.effective_mass, !k.count && !k.below && !k.effective_mass};
 }
 
-/// Attributes errors of the reduction to the scene's `modes`.
+/// Reports errors of the reduction at the scene's `modes`.
 template <class Work>
 auto in_modes(const Scene& scene, const SceneModes& modes, Work work) {
   try {

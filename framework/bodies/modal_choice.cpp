@@ -159,8 +159,8 @@ double longest(const MatrixXd& displacement) {
   return longest;
 }
 
-/// The part of the body's motion, at the selected times, that the shapes taken so far do not represent: the missing static response, and
-/// for each candidate not taken the difference from its static response.
+/// The part of the body's motion at the selected times that the shapes taken so far do not represent: the missing static response and, for
+/// each candidate not taken, the deviation from its static response.
 class Left {
  public:
   Left(const Reduced& r, const MatrixXd& eta, const MatrixXd& factor)

@@ -14,12 +14,12 @@ inline constexpr int considered_modes = 24;      ///< the lowest considered; all
 inline constexpr double negligible_part = 0.01;  ///< of strain energy and displacement
 inline constexpr int without_a_run = 6;          ///< modes kept where the preliminary run is not possible
 
-/// A mode considered for `keep: auto`. Parts are relative to the largest strain energy and displacement in the run.
+/// A mode considered for `keep: auto`. Energies and displacements are relative to the largest ones in the run.
 struct ConsideredMode {
   double frequency;          ///< [Hz]
-  double energy;             ///< largest strain energy of the mode itself, part
-  double left_energy;        ///< error if this mode and those below it are kept, part
-  double left_displacement;  ///< likewise
+  double energy;             ///< largest strain energy of the mode itself
+  double left_energy;        ///< error of the strain energy if this mode and those below it are kept
+  double left_displacement;  ///< likewise, of the displacement
   bool kept;
 };
 

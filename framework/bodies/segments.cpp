@@ -56,7 +56,7 @@ std::optional<double> arc_of(const Axis& axis, const Vector2d& p, double toleran
   return {};
 }
 
-/// How often the axis passes p where it does not run through a point of another name.
+/// How often the axis passes p, except through points of other names.
 int passages(const Axis& axis, const SceneBeam& beam, const ScenePoint& p, double tolerance) {
   std::vector<double> at;
   for (std::size_t i = 0; i + 1 < axis.corners.size(); ++i) {

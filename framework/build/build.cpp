@@ -138,7 +138,7 @@ class Builder {
     model_.system.joint_names.push_back(j.name);
   }
 
-  /// Its ends are on different bodies.
+  /// Checks that its ends are on different bodies.
   void apart(const SceneJoint& j) const {
     markers_.two_bodies(j.a, j.b, j.place);
     if (j.coupling && !j.coupling->terms.empty()) {
@@ -149,7 +149,7 @@ class Builder {
     }
   }
 
-  /// Adds the contact, and the joint without clearance.
+  /// Adds the contact, and the ideal joint.
   void add_play(const SceneJoint& j, int& order) {
     const Joint ideal = joint_of(scene_, j, markers_);
     order = static_cast<int>(model_.system.contacts.size());
@@ -165,7 +165,7 @@ class Builder {
     model_.system.loose_names.push_back(j.name);
   }
 
-  /// Adds pairs of the journal and the pieces of an open bearing, and the joint without clearance.
+  /// Adds the pairs of the journal with the pieces of an open bearing, and the ideal joint.
   void add_open_bearing(const SceneJoint& j, int& order) {
     const std::array<Profile, 2> profiles = open_bearing(scene_, j);
     const bool b_bears = j.clearance->bearing == j.b.body;

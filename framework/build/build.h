@@ -8,14 +8,14 @@ namespace pintle {
 
 class BodyStore;
 
-/// Resolves names into indices and checks everything that the reader cannot: the only code that does. Modes of bodies with `keep: auto` are
+/// Resolves names into indices and checks everything that the reader cannot; no other code does this. Modes of bodies with `keep: auto` are
 /// chosen by a preliminary run with rigid bodies.
 /// @throws SceneError  naming file, line, key, value and remedy
 Model build(const Scene&);
 /// The same to the bit, with bodies of elements from a store shared by many scenes, in any number of threads.
 Model build(const Scene&, BodyStore&);
-/// The same, with a preliminary run for every scene with flexible bodies, which estimates their bending and geometric stiffness and adds to
-/// the warnings: for `pintle check`.
+/// The same, with a preliminary run for every scene with flexible bodies; it estimates their bending and geometric stiffness, and adds
+/// warnings: for `pintle check`.
 Model build_with_preliminary_run(const Scene&);
 
 }  // namespace pintle

@@ -16,14 +16,14 @@ namespace pintle {
 
 namespace {
 
-// Rows and frames are sampled between the steps, with one evaluation each. With verner87, 25 evaluations come before the first of a step; a
-// step for each row is counted here, more than it takes, which keeps dopri5 where steps are few.
+// A row or frame between steps costs one evaluation; with verner87, the first one in a step costs 25 more. Counting a whole step for each
+// row overestimates this, which keeps dopri5 where steps are few.
 const Tableau* automatic_explicit(const Scene& scene, const RateSpectrum& s, const Demand& d) {
-  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // relative to the demand; share needed by a smooth motion
+  constexpr double fine = 1e-6, brief = 0.05, taken = 0.4;  // tolerance; ratio of rates; share of the demand of a smooth motion
   constexpr double read = 1000;                             // default number of rows; the actual number must not affect the motion
   const Tableau *low = find_tableau("dopri5"), *high = find_tableau("verner87");
   const double steps = taken * scene.run.until * std::max(d.stability, d.accuracy), long_steps = taken * scene.run.until * d.high;
-  const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and smooth motion continues
+  const bool by_contacts = s.fastest.rate < brief * s.strike;  // impacts are brief, and the motion between them is smooth
   const bool dearer = high->stages() * (long_steps + read) > (low->stages() - 1) * steps + read;
   return scene.run.tolerance > fine || by_contacts || dearer ? low : high;
 }
@@ -66,7 +66,7 @@ class Parts {
       see({omega, 2 * body.flex->zeta[i] * omega, "mode " + std::to_string(i + 1) + " of \"" + body.name + "\""});
     }
   }
-  // Rate of change of the force of a contact that closes at a hundredth of the motion's speed.
+  // Relative rate of change [1/s] of the force of a contact that closes at a hundredth of the motion's speed.
   void see(const ContactPair& pair, double motion, const std::string& name) {
     if (is_held(pair) || pair.pair > 0) return;
     found.struck = true;
@@ -87,7 +87,7 @@ class Parts {
     const double load = rub.preload + system_.gravity.norm() / (a.force + b.force);
     see({std::sqrt(load * bristles.stiffness * w), load * bristles.damping * w, "the bristles in \"" + name + "\""});
   }
-  // With the stiffness and damping of the laws at the start of the scene.
+  // Stiffness and damping of forces with laws of signals: the slopes of the laws at the scene's start.
   void see_laws(const Scene& scene) {
     const Eigen::VectorXd y = drawn(scene);
     std::array<double, most_law_inputs> in, slope{};
@@ -108,7 +108,7 @@ class Parts {
   double pushed = 0;  ///< √(acceleration/length) due to the laws of forces at the start of the scene [rad/s]
 
  private:
-  // Coupling of the scene's own states with the motion held: the fastest of their exponential rates.
+  // The scene's own states with the mechanism held: the spectral radius of the Jacobian of their rates [1/s].
   void see_states(const Eigen::VectorXd& y) {
     std::array<double, most_law_inputs> in, slope{};
     const auto n = static_cast<Eigen::Index>(system_.states.size());
@@ -128,7 +128,7 @@ class Parts {
     const bool alone = rate <= (1 + known) * decay;
     see({alone ? 0 : rate, decay, "the state \"" + system_.states[at(alone ? own : fastest)].name + "\""});
   }
-  // ‖A^m‖^(1/m) with m = 2^10, for any units of the states: accurate to a few per cent. @param row  that grows most
+  // ‖A^m‖^(1/m) with m = 2^10, for any units of the states: accurate to a few per cent. @param row  the one that grows most
   static double spectral_radius(Eigen::MatrixXd power, Eigen::Index& row) {
     double log = 0, part = 1;
     for (int squarings = 0;; ++squarings) {
@@ -208,8 +208,8 @@ double motion_of(const Scene& scene, const System& system) {
   return motion;
 }
 
-/// The motion that forces with laws of time cause in a mechanism at rest, and the rate of the forces: √(acceleration/length), and the root
-/// mean square of the rate over that of the size.
+/// Rate of the motion that forces with laws of time cause in a mechanism at rest [1/s]: the larger of √(acceleration/length) and of the
+/// forces' own rate, the root mean square of their derivative over that of their value.
 double pushed_by_laws_of_time(const Scene& scene, const System& system) {
   constexpr int samples = 64;
   double fastest = 0;
@@ -231,7 +231,8 @@ double pushed_by_laws_of_time(const Scene& scene, const System& system) {
   return fastest;
 }
 
-/// Rate of a motion without drivers: due to the forces, or of what oscillates through the whole run, and at least what the run can show.
+/// Rate of a motion without drivers [rad/s]: the largest of that due to the forces, that of the slowest oscillation that lasts through the
+/// run, and 1/(length of the run).
 double undriven_motion(const Scene& scene, const System& system, const RateSpectrum& s, double pushed) {
   double swing = 0;
   for (const RateSpectrum::Part& p : s.parts) {
@@ -242,7 +243,7 @@ double undriven_motion(const Scene& scene, const System& system, const RateSpect
   return std::max({seen, swing, pushed, pushed_by_laws_of_time(scene, system)});
 }
 
-/// Whether rates of own states change with the time alone.
+/// Whether the rate of an own state changes with time while all signals are constant.
 bool are_led_by_time(const System& system, double until) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(system.n_y());
   start_own_states(system, y);
@@ -255,7 +256,7 @@ bool are_led_by_time(const System& system, double until) {
   });
 }
 
-/// There are own states that lead each other, and nothing else that moves by a law: no forces, friction, contacts, shapes or drivers.
+/// Whether only own states move by laws, and their rates do not depend on time: no forces, friction, contacts, shapes or drivers.
 bool has_states_alone(const Scene& scene, const System& system) {
   return std::ranges::none_of(system.joints, [](const Joint& j) { return driver_law(j) != nullptr; }) && !system.states.empty() &&
          system.forces.empty() && system.frictions.empty() && system.contacts.empty() && system.n() == system.n_rigid() &&
@@ -272,8 +273,7 @@ Constraints constraints_of(const Scene& scene, bool is_explicit) {
   return c == "partitioning" ? Constraints::partitioning : Constraints::projection;
 }
 
-// For a given tolerance, the error of a whole run is the tolerance to the power ⅔ with generalised-α, and the tolerance itself with an
-// explicit scheme.
+// The error of a whole run is the tolerance to the power ⅔ with generalised-α, and the tolerance itself with an explicit scheme.
 constexpr double dearer = 8;
 
 bool has_rigid_contacts(const System& system) {

@@ -8,19 +8,19 @@
 
 namespace pintle {
 
-/// How fast a system would oscillate by itself and how fast it is driven, estimated from its parts alone: linear in their number, before
-/// any configuration is known.
+/// The rates at which a system would oscillate by itself and is driven, estimated from its parts alone, before any configuration is known,
+/// in time linear in their number.
 struct RateSpectrum {
   struct Part {
     double rate = 0;        ///< as an undamped oscillation [rad/s]
     double decay = 0;       ///< of its speed due to its damper, 2ζω of a mode [1/s]
     std::string what = {};  ///< for messages
   };
-  double motion = 0;          ///< initial spins, drivers' rates, √(g/length) [rad/s]; if none, the rate of what oscillates or is pushed
+  double motion = 0;          ///< initial spins, drivers' rates, √(g/length) [rad/s]; if none, that of oscillations or due to forces
   double until = 0;           ///< length of the run [s]
   Part fastest, most_damped;  ///< of springs and modes
   std::vector<Part> parts;    ///< springs, modes, contacts
-  bool struck = false;        ///< there are contacts, whose impacts excite all oscillations again
+  bool struck = false;        ///< there are contacts, whose impacts excite all oscillations anew
   double strike = 0;          ///< rate of the fastest contact [rad/s]
 };
 /// Each spring is considered alone, acting on its two bodies at its points; joints can only make it slower. A contact is never `fastest`:

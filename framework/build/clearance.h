@@ -11,15 +11,15 @@
 
 namespace pintle {
 
-/// Gap and laws of a clearance joint with a complete bearing. To be added later: its markers; for a massless link its joint; for a spring
-/// and damper what the scene does not give (complete_clearances).
+/// Gap and laws of a clearance joint with a complete bearing. Still to be added: its markers; for a massless link its joint; for a spring
+/// and damper, values that the scene does not give (complete_clearances).
 /// @throws SceneError  another kind of joint; invalid radii, restitution, law or stiffness
 ContactPair contact_of(const Scene&, const SceneJoint&);
 
 /// The law that a scene names. @param stiffness  of an impact law [N/mⁿ]   @param radii  of a law of cylinders, negative for a hole [m]
 /// @throws SceneError  invalid restitution, law, stiffness, length or table
 NormalLaw normal_law(const Scene&, const SceneNormal&, double stiffness, const std::array<double, 2>& radii);
-/// It is a law of cylinders, which needs radii.
+/// Whether it is a law of cylinders, which needs radii.
 bool is_of_cylinders(const SceneNormal&);
 /// The theory of its contact pressure; nothing where it is not a law of cylinders. Parameters and errors as above.
 std::optional<PressureTheory> pressure_of(const Scene&, const SceneNormal&, const std::array<double, 2>& radii);
@@ -34,14 +34,14 @@ void check_rigid_friction(const Scene&, const SceneFriction&);
 /// The law that a scene names.
 /// @throws SceneError  an invalid law or static coefficient
 FrictionLaw friction_law(const Scene&, const SceneFriction&);
-/// There is friction.
+/// Whether there is friction.
 bool rubs(const SceneFriction&);
 /// ", dry friction 0.2, static 0.3"
 std::string friction_text(const ContactPair&);
 
 /// Completes springs and dampers from their contact law: docs/theory/contact.md.
 /// @param system    complete except for its numbering
-/// @param warnings  receives entries of the scene that a model ignores and a result would lack
+/// @param warnings  receives a warning where friction is ignored, with a massless link
 /// @returns  how each clearance joint is modelled, in words
 /// @throws AssemblyError  as assemble, where a spring and damper must be computed
 std::vector<std::string> complete_clearances(const Scene&, System& system, std::vector<std::string>& warnings);

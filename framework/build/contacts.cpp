@@ -73,7 +73,7 @@ bool turns_too_little(const Piece& curve, const Piece& other) {
   return curve.curve && curve.curve->turn() < straight && (other.straight || other.curve);
 }
 
-/// Can they touch at an inner point of both? Where two lines lie on each other, or a line lies in a hollow, corners touch.
+/// Whether they can touch at inner points of both. Of two lines that lie on each other, or a line in a hollow, the corners touch.
 bool may_touch(const Piece& a, const Piece& b) {
   if ((a.straight || is_corner(a)) && (b.straight || is_corner(b))) return a.straight != b.straight;
   const bool hollow_a = is_hollow(a), hollow_b = is_hollow(b);
@@ -83,7 +83,7 @@ bool may_touch(const Piece& a, const Piece& b) {
   return !a.straight && !b.straight && a.radius + b.radius < 0;
 }
 
-// The pairs of pieces that may touch, each with the properties of `like`; the pairs beyond their ends by index.
+// The pairs of pieces that may touch, each with the properties of `like` and the indices of the pairs beyond their ends.
 std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b,
                                        const ContactPair& like) {
   const int n_a = static_cast<int>(a.pieces.size()), n_b = static_cast<int>(b.pieces.size());
@@ -96,7 +96,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
       ContactPair& pair = out.emplace_back(like);
       pair.gap = {a.pieces[at(i)], b.pieces[at(j)]};
       pair.pair = static_cast<int>(out.size()) - 1;
-      const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round pieces end by their normals
+      const auto until = [&](const Piece& piece, double half_material, const Piece& other) {  // round pieces are limited by their normals
         const bool of_a_ring = like.journal && std::isfinite(piece.half);                     // the middle of its outer arc is in the air
         if (piece.straight || piece.radius < 0 || piece.curve || of_a_ring)
           pair.deepest = std::min(pair.deepest, half_material + std::max(other.radius, 0.0));
@@ -109,8 +109,8 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
                      quoted(c.a.body + "." + c.a.point) + " and " + quoted(c.b.body + "." + c.b.point) +
                          " cannot touch: both are hollow, or one is too large for the other; change `material` or a radius");
 
-  // What lies beyond the ends of pieces: another pair; or, where pieces lie along each other, none, and the contact is kept a little
-  // longer.
+  // Beyond the end of a piece follows another pair. Where there is none, as where pieces lie along each other, the piece is extended a
+  // little.
   constexpr double while_turning = std::numbers::pi / 4, while_sliding = 0.5;
   for (int i = 0; i < n_a; ++i)
     for (int j = 0; j < n_b; ++j) {
@@ -136,7 +136,7 @@ std::vector<ContactPair> pairs_between(const Scene& scene, const SceneContact& c
   return out;
 }
 
-// It has corners without an arc, apart from the ends of an open path.
+// Whether it has corners without an arc, apart from the ends of an open path.
 bool has_sharp_corners(const Profile& profile) {
   const auto ends = profile.closed ? 0 : 2;
   return std::ranges::count_if(profile.pieces, is_corner) > ends;

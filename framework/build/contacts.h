@@ -38,8 +38,8 @@ BuiltContact build_contact(const Scene&, const SceneContact&, const Profile& a, 
 /// @throws SceneError  no two pieces that could touch
 BuiltContact build_pairs(const Scene&, const SceneContact& c, const Profile& a, const Profile& b, const ContactPair& like, int first);
 
-/// For rigid contacts: allows for the rounding of a closed gap, and of a corner at the end of its support, as where boxes are stacked
-/// flush; it stays there. Called once the mechanism's length is known.
+/// For rigid contacts: allows for rounding of a closed gap, and of a corner that stays at the end of its support, as when boxes are stacked
+/// flush. Called once the mechanism's length is known.
 void allow_rounding(System&);
 
 }  // namespace pintle

@@ -75,7 +75,7 @@ Relation on_a_frame(const Scene& scene, const SceneJoint& j, Markers& markers) {
                         markers.marker(frame_of(j), Holds::direction)},
                        3};
   const Coordinate::Kind moves = slides ? Coordinate::displacement : Coordinate::angle;
-  if (j.kind == JointKind::cam) {  // over the angle of the cam in the frame's axes, for any direction of the lift there
+  if (j.kind == JointKind::cam) {  // over the cam's angle in the frame's axes, whatever the direction of the lift there
     const double direction = markers.marker_at(frame_of(j), Holds::direction).angle;
     TimeLaw curve = [of = j.coupling->curve.at, direction](double angle) { return of(angle + direction); };
     return relation(!slides, ends, {{Coordinate::angle, frame, shaft, 0}, {moves, frame, follower, 1}}, std::move(curve));
@@ -209,7 +209,7 @@ class Settling {
                          length(rack.radius) + "; correct the radius or the points, or turn the direction of the line");
     if (height < 0) rack.radius = -rack.radius;
   }
-  /// Allowed error of a drawing, relative to the radius: rolling discs are brought into contact, gears are held by other joints.
+  /// Allowed error of a drawn centre, relative to the radius: assembly brings rolling discs into contact; other joints hold gears.
   static double played(const SceneJoint& j) { return j.kind == JointKind::rolling ? 0.05 : 1e-3; }
 
   const Scene& scene_;
@@ -217,10 +217,10 @@ class Settling {
   std::vector<MarkerMotion> motion_;
 };
 
-/// A joint with clearance that is a coupling: teeth with backlash.
+/// Whether a joint with clearance has teeth, with backlash.
 bool meshes(const Joint& loose) { return std::holds_alternative<Gear>(loose) || std::holds_alternative<Rack>(loose); }
 
-/// The joints that place the bodies, without some of the joints and all couplings with clearance: without forces and what they depend on.
+/// The system with only the joints that position the bodies: without `joints`, couplings with clearance, forces and what these need.
 System without(const System& system, const std::vector<int>& joints) {
   System rest;
   rest.gravity = system.gravity;

@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// Joined by wheels, a curve or a linear relation: data that complete_couplings computes from the start.
+/// Whether wheels, a curve or a linear relation join the bodies: complete_couplings computes missing data from the start.
 bool is_coupling(const SceneJoint&);
 
 /// The joint of a coupling, not yet complete.

@@ -15,7 +15,7 @@ namespace pintle {
 
 namespace {
 
-/// Without a preliminary run: a body whose spin is given. @returns whether a warning was added
+/// Without a preliminary run, warns of a body without stiffening whose given spin matters. @returns whether a warning was added
 bool warn_of_spin(const Scene& scene, const MechanismBody& b, Model& model) {
   if (b.elastic.scene->elastic->stiffening != Stiffening::none) return false;
   const double spin = given_spin(scene, b.body.name);

@@ -152,7 +152,7 @@ SetState setting(const Scene& scene, const SceneEvent& event, const std::string&
           seen_by(value, told, [of](const System& system, const State& there) { return inputs_of(system, of, there); })};
 }
 
-// Of a gear or rack with backlash, where known.
+// Pitch of a gear or rack with backlash [m]; 0: unknown, or another joint.
 double pitch_of_teeth(const Scene& scene, const Model& model, const std::string& name) {
   const auto joint = std::ranges::find(scene.joints, name, &SceneJoint::name);
   if (joint == scene.joints.end() || !joint->play || !joint->coupling) return 0;
@@ -188,7 +188,7 @@ Known known_of_condition(const SceneEvent& event, double until) {
   return known_of(comparisons_of(event), until);
 }
 
-// Warns if an event can never do anything, or always does, judged by what is known beforehand.
+// Warns of events and switches that are known beforehand to have no effect, and of conditions that never change.
 void warn_of_events(const Scene& scene, Model& model) {
   std::set<std::string> released, engaged;
   for (const SceneEvent& event : scene.events)

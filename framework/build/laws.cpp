@@ -22,7 +22,7 @@ bool stands_still(const Law& law, double until) {
   return law.constant && first.value == last.value && first.rate == 0 && last.rate == 0;
 }
 
-/// A jump of what a driver imposes, or of its speed, is an impact, whose energy is not accounted for here.
+/// Rejects a jump of a driver's law or of its speed: it is an impact, whose energy would not be accounted for.
 void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& scale) {
   for (const LawBreak& b : scale.breaks) {
     const bool place = value_jumps(b);
@@ -37,7 +37,7 @@ void validate_jumps(const Scene& scene, const SceneDriver& d, const LawScale& sc
   }
 }
 
-/// Checks between the times that the reader checks.
+/// Checks that a law is finite also between the times that the reader checks.
 void validate_finite(const Scene& scene, const Law& law, const Place& place, const LawScale& scale, bool driver) {
   const auto fail = [&](const char* what, double t) {
     throw SceneError(scene.file, place,
@@ -121,7 +121,7 @@ bool uses_time_beside_signals(const Scene& scene) {
 
 /// The pieces with these ends that are not linear.
 std::vector<LawBend> bends_of(const TimeLaw& law, const std::vector<double>& ends) {
-  constexpr double edge = 1e-6, rounding = 1e-9;  // relative to a piece: a jump before it does not belong to it; relative to rates
+  constexpr double edge = 1e-6, rounding = 1e-9;  // relative to a piece, to leave out jumps at its ends; relative to rates
   std::vector<LawBend> out;
   double begin = 0;
   for (const double end : ends) {

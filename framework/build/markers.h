@@ -32,11 +32,11 @@ class Markers {
   Marker marker_at(const PointRef&, Holds) const;
   /// Its index in System::markers; created at the first call.
   int marker(const PointRef&, Holds = Holds::point);
-  /// Marker at this point with the body's own axes as drawn: it carries a surface.
+  /// Marker at this point with the body's own axes as drawn, to carry a surface.
   int carrier(const PointRef&);
   /// Position of a point in the drawn body, body axes [m].
   Eigen::Vector2d place(const PointRef&) const;
-  /// As its motion is recorded: second order unless it is held at first order.
+  /// Marker for recording the motion of a point: second order, unless joints hold it at first order.
   Marker recorded_at(const PointRef&) const;
 
   /// @throws SceneError  both are on one body

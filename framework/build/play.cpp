@@ -77,7 +77,7 @@ Profile ring(double R, const SceneArc& arc) {
   return out;
 }
 
-/// Circles between which the end of a rod stays.
+/// The circles between which the end of a rod moves.
 Profile reach(const ScenePlay& play, double length) {
   Profile out;
   if (play.only != ScenePlay::push) add(out, {.radius = -(length + play.gap)});

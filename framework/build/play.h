@@ -9,7 +9,7 @@
 namespace pintle {
 
 /// A joint with clearance as two profiles in the axes of its points, a's first: the guide and its block, the slot and its pin, or the
-/// circles between which the end of a rod stays, and that end.
+/// circles between which the end of a rod moves, and that end.
 /// @throws SceneError  invalid lengths
 std::array<Profile, 2> profiles_of(const Scene&, const SceneJoint&);
 

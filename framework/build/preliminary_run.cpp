@@ -49,7 +49,7 @@ Scene rigid_twin(const Scene& scene, const std::vector<const ElasticBody*>& elem
   twin.output.points.clear();
   twin.output.stress.clear();
   twin.output.frames = 0;
-  twin.outputs.clear();  // they may read deflections, which the twin lacks
+  twin.outputs.clear();  // they may read deflections, which rigid bodies lack
   return twin;
 }
 
@@ -129,7 +129,7 @@ RigidRun rigid_run(const Scene& scene, const std::vector<const ElasticBody*>& el
     }
   } catch (const AssemblyError& error) {
     run.trouble = error.what();
-  } catch (const SceneError& error) {  // also of laws that read deflections; the scene's own errors come again when it is built
+  } catch (const SceneError& error) {  // also if laws read deflections; errors of the scene itself are reported again by `build`
     run.trouble = std::string("with every body rigid, the scene cannot be built: ") + error.what();
   }
   run.seconds = processor_time() - begin;

@@ -19,7 +19,8 @@ namespace {
 
 std::string percent(double part) { return number_text(std::round(1000 * part) / 10) + " %"; }
 
-/// ∂f/∂δ at the depth reached at a hundredth of the motion's speed, or at a hundredth of its fine length if nothing moves yet [N/m].
+/// ∂f/∂δ [N/m] at the depth reached at a hundredth of the motion's speed, or if nothing moves yet, at a hundredth of the contact's fine
+/// length.
 double stiffness_of_blow(const System& system, const ContactPair& pair, double motion) {
   double mobility = 0;  // 1/m of the two bodies there
   for (const int marker : {pair.a, pair.b}) {

@@ -11,8 +11,8 @@
 
 namespace pintle {
 
-/// Creates signals and laws of a system from those of the scene. Signals have their own markers, and must not affect the size of the
-/// mechanism: a law is `begun` where the scene defines it and `finished` when that size is known.
+/// Creates signals and laws of a system from those of the scene. Signals have their own markers, which must not affect the size of the
+/// mechanism: a law is `begun` where the scene defines it, and `finished` when that size is known.
 class SignalMaker {
  public:
   SignalMaker(const Scene& scene, Markers& markers, Model& model) : scene_(scene), markers_(markers), model_(model) {}
@@ -20,7 +20,7 @@ class SignalMaker {
   /// Its index in System::laws; also for a law of time.
   int begin(const Law&, const Place&);
   void finish();
-  /// A law that need not belong to the system: of an output, of an event. After finish. @throws SceneError  an unknown signal
+  /// A law that is not part of the system, of an output or an event. After finish. @throws SceneError  an unknown signal
   SignalLaw law(const Law&, const Place&);
   int signal(const std::string& name, const Place&);  ///< its index in System::signals
   const std::map<std::string, SignalWord, std::less<>>& words();

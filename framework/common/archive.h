@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// Checksum of the names of members, their order and the sizes of numbers among them.
+/// Checksum of the names and the order of members, and of the sizes of their numbers.
 template <class... T>
 constexpr std::uint32_t layout(std::string_view names) {
   std::uint32_t h = 2166136261u;  // FNV-1a

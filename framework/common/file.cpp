@@ -239,7 +239,7 @@ void sync_tree(const fs::path& folder) {
     }
   };
 #if defined(__linux__)
-  if (tree.files.size() > 2) {  // one wait for the disk instead of one per file
+  if (tree.files.size() > 2) {  // waits for the disk once instead of once per file
     const int whole = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (whole < 0) throw FileError(folder, errno);
     const int failed = ::syncfs(whole) == 0 ? 0 : errno;

@@ -27,7 +27,7 @@ class FileWriter {
   /// @throws FileError  once; later records are dropped
   void append(std::string_view record);
   void flush();
-  void flush_if_due();  ///< if a second has passed: for records that no other follows for long
+  void flush_if_due();  ///< if a second has passed since the last flush
   void close();         ///< flushes. @throws FileError
 
  private:
@@ -47,10 +47,10 @@ std::filesystem::path unique_neighbour(const std::filesystem::path& path);
 /// Creates a folder with such a name. @throws FileError
 std::filesystem::path make_unique_folder(const std::filesystem::path& path);
 
-/// Writes a file completely or not at all: first to a unique neighbour, which is then renamed. It is on the disk once its folder is synced.
+/// Writes a file completely or not at all: first under a unique name beside it, then renamed. It is on the disk once its folder is synced.
 /// @throws FileError
 void write_text(const std::filesystem::path&, const std::string&);
-/// The same, and on the disk when it returns.
+/// The same; the content is on the disk when it returns.
 void write_synced(const std::filesystem::path&, const std::string&);
 
 /// All files below a folder, and all folders, itself first. (The standard library's iterators terminate the program if memory runs out.)

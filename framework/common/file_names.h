@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// What a file's name ends in, with its dot and in lower case: ".png" of "Frame.PNG".
+/// Extension of a file name, with its dot, in lower case: ".png" of "Frame.PNG".
 std::string ending_of(const std::filesystem::path&);
 
 /// File names for elements with arbitrary names. Anything except ASCII letters, digits, `.`, `-` and `_` becomes `_`, long names are

@@ -10,7 +10,7 @@ namespace pintle {
 
 namespace {
 
-/// Looked up at run time: the system determines which BLAS is used, and whether CHOLMOD was built with OpenMP.
+/// Function looked up at run time: the system determines which BLAS is used, and whether CHOLMOD was built with OpenMP.
 template <class Function>
 Function* sought(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
@@ -27,7 +27,7 @@ void shed_library_threads(char** argv) {
   constexpr const char* threads = "OPENBLAS_NUM_THREADS";
   if (std::getenv(threads) || !(is_limited(RLIMIT_AS) || is_limited(RLIMIT_DATA))) return;
   ::setenv(threads, "1", 1);
-  ::execv("/proc/self/exe", argv);  // returns where it cannot: then the program goes on as it is
+  ::execv("/proc/self/exe", argv);  // returns only if it fails: the program then continues unchanged
 }
 
 void hold_library_threads() {

@@ -11,7 +11,7 @@
 
 namespace pintle {
 
-/// Cache of expensive results, for any thread. The least recently used results are dropped when there is too much; a holder of a result
+/// Thread-safe cache of expensive results. The least recently used are dropped above a limit of size; a holder of a result
 /// keeps it.
 template <class T>
 class MadeOnce {

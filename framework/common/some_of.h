@@ -9,8 +9,8 @@
 
 namespace pintle {
 
-/// Names in a message, of which a large scene can have any number: "a", "b" and "c"; of many the first and the number of the others:
-/// the first eight and "and 990 others". @param quotes  the names stand in quotes
+/// Lists names in a message: "a", "b" and "c"; of more than nine, the first eight and the number of the others: "and 990 others".
+/// @param quotes  puts the names in quotes
 inline std::string some_of(const std::vector<std::string>& names, bool quotes = true) {
   constexpr std::size_t most = 8;
   const bool many = names.size() > most + 1;

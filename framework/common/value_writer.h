@@ -16,9 +16,9 @@
 
 namespace pintle {
 
-/// Writes values one after another such that no two sequences of values give the same bytes; all NaNs are equal. `Self` has
-/// bytes(std::string_view) and `add` for its structures, which it decomposes by structured bindings: with an additional member they no
-/// longer compile, so that whoever adds one decides there whether it counts.
+/// Writes values one after another such that different sequences give different bytes; all NaNs are equal. `Self` has
+/// bytes(std::string_view) and `add` for its structures, which `add` decomposes by structured bindings: if a member is added to a structure
+/// they no longer compile, so its author must decide whether it counts.
 template <class Self>
 class ValueWriter {
  public:

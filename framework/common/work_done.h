@@ -4,8 +4,8 @@
 
 namespace pintle {
 
-/// Progress of the present computation, 0 to 1, for a progress display; negative: unknown. Long computations set it now and then. With
-/// several running at once it belongs to any of them.
+/// Progress of the present computation, 0 to 1, for a progress display; negative: unknown. Long computations update it occasionally. If
+/// several run at once, it may belong to any of them.
 inline std::atomic<double> work_done{-1};
 
 }  // namespace pintle

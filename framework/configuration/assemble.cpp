@@ -91,12 +91,12 @@ Rough rough_state(const Scene& scene, const System& system, const Bent& bent) {
   throw AssemblyError(scene.file, named_place(scene, closure.owner(worst)), message + "; " + remedy);
 }
 
-constexpr double nearly_right = 1e-6;  // not reached by chance in any configuration or speed
+constexpr double nearly_right = 1e-6;  // a residual below this does not occur by chance
 const char* const must_fit =
     "redundant joints must agree with each other to 1e-11 of the mechanism's size: write lengths, points and angles with more digits, or "
     "remove a joint";
 
-// The violation of C that a run accepts (onto_constraints); no more may be left here.
+// The violation of C that a run accepts (onto_constraints), and so the largest allowed here.
 double constraints_met(const System& system, const VectorXd& y) {
   constexpr double met = 1e-11, still_good = 1e-8;
   return std::max(met, std::min(8 * angle_rounding(system, y), still_good));
@@ -107,7 +107,7 @@ struct Closed {
   Sparse J;
   VectorXd C;
   int iterations = 0;
-  bool far = false;  ///< the first step was much longer than one may be
+  bool far = false;  ///< the first step was much longer than the limit of a step
 };
 
 // Levenberg–Marquardt on C = 0, starting from y.
@@ -127,7 +127,7 @@ Closed close_from(Closure& closure, const System& system, const VectorXd& W, Vec
     trial.head(system.n()) += step;
     const VectorXd C_trial = closure.violation(trial);
     if (C_trial.norm() < C.norm()) {
-      // Near a singular configuration Newton's steps are half of the remaining distance, so residuals fall to a quarter.
+      // Near a singular configuration a Newton step covers half of the remaining distance, so residuals fall to a quarter.
       const VectorXd further = y.head(system.n()) + 2 * step;
       y = trial;
       if (const double left = C_trial.norm() / C.norm(); left > 0.2 && left < 0.3 && reach <= most) {
@@ -145,7 +145,8 @@ Closed close_from(Closure& closure, const System& system, const VectorXd& W, Vec
   return out;
 }
 
-// From the drawn pose; where that fails, or where the bodies have far to go, from the places that a tree of joints gives them.
+// Starts from the drawn pose. If that fails, or if the bodies have far to go, starts from the positions that a tree of joints gives them
+// (`placed`).
 Closed close_anyhow(const Scene& scene, Closure& closure, const System& system, Rough& r) {
   constexpr double far = 10;    // lengths of the mechanism
   constexpr double bent = 0.1;  // [rad]
@@ -154,7 +155,7 @@ Closed close_anyhow(const Scene& scene, Closure& closure, const System& system, 
   const auto from_placed = [&](double bend) {
     r.y = placed(scene, system, closure, drawn, r.W_pose, bend);
     Closed out = close_from(closure, system, r.W_pose, r.y);
-    ++out.iterations;  // the placing
+    ++out.iterations;  // counts `placed`
     return out;
   };
   Closed first = close_from(closure, system, r.W_pose, r.y, false);
@@ -200,7 +201,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   s += least_step(J, r.W_speed, -D, 1e-13, 8);
   VectorXd left = closure.drift(r.y);
   const double scale = std::max({D.lpNorm<Eigen::Infinity>(), s.lpNorm<Eigen::Infinity>(), 1e-12});
-  for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // masses so different that the metric hides some rows
+  for (int i = 0; i < 3 && left.lpNorm<Eigen::Infinity>() > 1e-12 * scale; ++i) {  // very different masses hide some rows
     const VectorXd W = r.W_speed.cwiseMax(1e-6 * r.W_speed.maxCoeff()).cwiseProduct((r.W_speed.array() > 0).cast<double>().matrix());
     const VectorXd before = s;
     s += least_step(J, W, -left, 1e-13, 8);
@@ -223,7 +224,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
   return 1;
 }
 
-// Flexible bodies start undeformed and move as rigid ones; only where the joints cannot be closed that way do they bend, soft shapes before
+// Flexible bodies start undeformed and move as rigid ones. They deform only if the joints cannot be closed otherwise, soft shapes before
 // stiff ones.
 template <class Close>
 int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Close close) {
@@ -245,7 +246,7 @@ int undeformed_first(const System& system, Rough& r, VectorXd Rough::*weight, Cl
   return close(r);
 }
 
-/// The driver that a dependence ends with; otherwise the joint.
+/// The first redundant driver, otherwise the first redundant joint.
 const std::string& last_driver(const System& system, const std::vector<Redundancy>& redundant) {
   for (const Redundancy& r : redundant)
     if (is_driver(system.joints[at(r.joint)])) return system.joint_names[at(r.joint)];
@@ -278,7 +279,7 @@ std::vector<std::string> warnings_of(const Model& model, const Assembly& assembl
 
 namespace {
 
-// With the same number of integrals, so that the states have equal length.
+// The system with clearance joints as ideal ones, and as many integrals, so that states have equal length.
 System without_play(System system) {
   system.joints.insert(system.joints.end(), system.loose.begin(), system.loose.end());
   system.joint_names.insert(system.joint_names.end(), system.loose_names.begin(), system.loose_names.end());
@@ -286,7 +287,7 @@ System without_play(System system) {
   return system;
 }
 
-// A step of the assembly: first with joints with clearance treated as ideal; where the scene starts them differently, without them.
+// Does one step of the assembly: first with clearance joints as ideal ones; if this contradicts the scene's start, without them.
 template <class Do>
 auto as_if_ideal(const Scene& scene, const System& system, const System& closed, const std::vector<Eigen::Vector2d>& drawn, Rough& r,
                  Do does) {
@@ -340,7 +341,7 @@ Assembly assembled(const Scene& scene, const System& system, const Bent& bent) {
   return out;
 }
 
-/// Adds the speeds that drivers impose on a mechanism that would otherwise be at rest.
+/// Moves the start to the equilibrium, with the speeds that drivers impose there.
 void start_at_rest(const Scene& scene, const Model& model, Assembly& out) {
   const Equilibrium rest = find_equilibrium(scene, model, out);
   if (!rest.found) throw AssemblyError(scene.file, {0, "start"}, "there is no equilibrium to start from: " + rest.reason);

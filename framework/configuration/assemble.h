@@ -16,7 +16,7 @@ struct Assembly {
   std::vector<bool> shared;           ///< per row: its force is not unique; the solution of least norm is used
   double moved = 0;                   ///< largest change of a coordinate from the rough pose [m or rad]
   int iterations = 0;
-  std::vector<std::string> doubts = {};  ///< where it deviates from the drawn pose, in words
+  std::vector<std::string> doubts = {};  ///< where the start deviates from the drawn pose, in words
 };
 
 /// Assembles the mechanism at t = 0: the configuration nearest to the rough one that closes every joint and keeps what `start` fixes, then

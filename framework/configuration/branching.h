@@ -10,9 +10,9 @@
 /// The start in a singular configuration, where motions branch: docs/theory/constraints.md. W is the metric of `least_step`, y the state.
 namespace pintle {
 
-/// Near such a configuration C grows with the square of the distance, so a configuration accepted as closed may be a million roundings
-/// away, too far to choose a branch. Applies Newton's steps, doubled as a double root requires, as long as they reduce C. Elsewhere it does
-/// nothing.
+/// Near such a configuration C grows with the square of the distance. A configuration accepted as closed may therefore be a million
+/// roundings away, too far to choose a branch. Applies Newton's steps, doubled as a double root requires, while they reduce C. Elsewhere it
+/// does nothing.
 /// @param C, J  at y, scaled as in `Closure::violation`
 void close_in(Closure&, const System&, const Eigen::VectorXd& W, Eigen::VectorXd& y, Eigen::VectorXd& C, Eigen::SparseMatrix<double>& J);
 

@@ -109,7 +109,7 @@ class Closure {
     const auto next = std::upper_bound(system_.row_begin.begin(), system_.row_begin.end(), static_cast<int>(row));
     return static_cast<int>(next - system_.row_begin.begin()) - 1;
   }
-  /// 1 for the rows that compare angles, 0 for those that compare places.
+  /// 1 for rows in angles, 0 for rows in lengths.
   VectorXd angle_rows() const {
     VectorXd out = VectorXd::Zero(rows());
     for (std::size_t k = 0; k < system_.joints.size(); ++k)
@@ -132,7 +132,7 @@ class Closure {
       found = true;
       break;
     }
-    for (Index other = 0; other < left.size() && !found; ++other)  // the best compromise spreads the residual over all conflicting rows
+    for (Index other = 0; other < left.size() && !found; ++other)  // least squares spread the residual over all conflicting rows
       if (std::abs(left[other]) > 0.1 * std::abs(left[row])) add(other);
     drivers.insert(drivers.end(), names.begin(), names.end());
     return drivers;

@@ -28,7 +28,7 @@ class Search {
   Search(Rest& rest, State start) : rest_(rest), state_(std::move(start)), start_(state_.y.head(rest.held.n())) {}
 
   bool descend() { return go(true, 3000); }  ///< by minimising the potential energy
-  bool flow() { return go(false, 6000); }    ///< where there is no potential, or it does not help
+  bool flow() { return go(false, 6000); }    ///< if there is no potential, or `descend` fails
   bool damped() const { return damped_; }
   int iterations() const { return iterations_; }
   bool runs_away() const { return runs_away_; }
@@ -193,7 +193,7 @@ void warn(const Model& model, const Equations& eq, Equilibrium& out) {
   }
 }
 
-// If the search has reached a saddle, it is left along its unstable direction, towards lower energy.
+// Leaves a saddle point along its unstable direction, towards lower energy, and searches again.
 void search(Rest& rest, Search& way, Equilibrium& out) {
   const bool conservative = has_potential(rest.held);
   const bool rests_at_once = rest.residual() <= 1e-12;
@@ -213,7 +213,7 @@ std::string why_no_pose(const Scene& scene, const Model& model, const State& sta
                           : "the start pose is singular, or its forces exceed the range of a double (check stiffnesses, lengths and loads)";
 }
 
-// The friction is taken as 0, but what presses its surfaces is known.
+// Friction is taken as 0, but its normal loads are known.
 void find_friction_loads(const System& system, const State& state, Equations& eq) {
   for (std::size_t k = 0; k < system.frictions.size(); ++k)
     if (!is_released(system, Switch::joint, system.frictions[k].joint, state.y))
@@ -245,7 +245,7 @@ VectorXd own_states(const System& system, const State& state) {
   return state.y.segment(system.x_begin() + system.own_x, static_cast<Index>(system.states.size()));
 }
 
-/// From out.state, where the own states do not follow from each pose. @returns false where they do
+/// Solves for the pose and the own states together, from out.state. @returns false if each pose determines the own states
 bool rests_together(const Scene& scene, const Model& model, const System& system, const RestingStates& states, double time,
                     Equilibrium& out) {
   KeptStates all{{}, std::make_shared<VectorXd>(own_states(system, out.state))};
@@ -309,7 +309,7 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
   search(rest, way, out);
   State last = way.state();
   rest.project(last, 1);
-  if (!states.sought.empty() && !follow_the_pose(system, states, rest, time)) {  // a limit has been left: an integral is free again
+  if (!states.sought.empty() && !follow_the_pose(system, states, rest, time)) {  // a limit is left, so an integral is free again
     out.state = last;
     if (rests_together(scene, model, system, states, time, out)) return out;
   }

@@ -40,11 +40,11 @@ struct Equilibrium {
 /// @param direction  a displacement along the most unstable direction, n, scaled to 1 at most; empty if there is none
 Stability stability_of(const System&, const State&, const Equations&, const Eigen::VectorXd& lambda, Eigen::VectorXd* direction = nullptr);
 
-/// Finds the equilibrium that the mechanism reaches from its assembled start, by Newton's method on the configuration, damped where a step
-/// would not lower the potential energy. With K + σM and σ → ∞, its path is that of the mechanism with its masses in a fluid so viscous
-/// that nothing oscillates, so the equilibrium found is stable unless the start itself is at rest. With follower loads, where no potential
-/// exists, σ falls as the forces out of balance do. A contact exerts the elastic part k δⁿ of its law, without friction because nothing
-/// slides; dampers exert no force. Never throws for numerical reasons: `found` and `reason` report the result.
+/// Finds the equilibrium that the mechanism reaches from its assembled start, by Newton's method on the configuration, with steps damped by
+/// K + σM where they would not lower the potential energy. For σ → ∞ the path is that of an overdamped mechanism (its masses in a fluid so
+/// viscous that nothing oscillates), so the equilibrium found is stable unless the start itself is at rest. With follower loads there is no
+/// potential; σ then falls with the forces out of balance. A contact exerts the elastic part k δⁿ of its law, without friction because
+/// nothing slides; dampers exert no force. Never throws for numerical reasons: `found` and `reason` report the result.
 /// @throws AssemblyError  rigid contacts
 /// @param at  time of the drivers and loads [s]; the mechanism is moved there from t = 0 along its drivers
 Equilibrium find_equilibrium(const Scene&, const Model&, const Assembly&, double at = 0);

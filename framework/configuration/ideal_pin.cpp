@@ -121,7 +121,7 @@ double mass_against(const System& open, const VectorXd& y, const ContactPair& pa
     probe.forces.emplace_back(PointForce{marker, marker, law(f.x()), law(f.y())});
   };
   double apart[] = {0, 0};
-  for (const double size : {0.0, 1.0}) {  // the effect of drivers is in both
+  for (const double size : {0.0, 1.0}) {  // both contain the effect of drivers
     probe.forces.clear();
     push(pair.a, size * n);
     push(pair.b, -size * n);

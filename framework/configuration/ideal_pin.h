@@ -19,7 +19,7 @@ struct IdealPin {
   double force = 0;  ///< force in the ideal joint: root mean square over a short run, without `run` at the start [N]
   double mass = 0;   ///< effective mass of the bodies, held by the other joints, against a push along `force` at the start [kg]
 };
-/// One per clearance joint, with none of them held where it is not ideal.
+/// One per clearance joint; for `mass`, no clearance joint holds the bodies.
 /// @throws AssemblyError  as assemble
 std::vector<IdealPin> ideal_pins(const Scene&, const System&);
 

@@ -24,7 +24,7 @@ bool couples(const Joint& joint) {
          std::holds_alternative<RollsOnLine>(joint) || std::holds_alternative<Relation>(joint);
 }
 
-/// What can move at a pose, with joints left out.
+/// Finds which bodies can move at a pose, with drivers released and a joint removed.
 class FreeBodies {
  public:
   FreeBodies(const System& system, double t, const Eigen::VectorXd& y) : system_(system), J_(MatrixXd::Zero(system.n_rows(), system.n())) {
@@ -44,7 +44,7 @@ class FreeBodies {
     return out;
   }
 
-  /// Bodies that move where this joint is gone; -1: where all are there.
+  /// Bodies that can move without this joint; -1: with all joints.
   std::set<Index> moving(int without) {
     constexpr double rounding = 1e-9;
     MatrixXd J = J_;
@@ -90,7 +90,7 @@ std::vector<std::string> locked_couplings(const System& system, double t, const 
 
   FreeBodies free_bodies(system, t, y);
   const std::set<Index> moving = free_bodies.moving(-1);
-  std::map<int, std::set<Index>> bodies, freed;  // of those that stand; where it is gone
+  std::map<int, std::set<Index>> bodies, freed;  // bodies of each locked coupling; bodies that can move without it
   for (const int k : all)
     if (const std::set<Index> of = free_bodies.bodies_of(k); !of.empty() && shared_bodies(of, moving) == 0) bodies[k] = of;
   for (const auto& [k, of] : bodies) freed[k] = free_bodies.moving(k);

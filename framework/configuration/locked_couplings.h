@@ -7,9 +7,9 @@
 
 namespace pintle {
 
-/// Couplings that hold each other still at a pose, as gears do whose ratios contradict each other: all that they couple stands, drivers let
-/// go, and moves as soon as any one of them is gone. @returns in words, with their names, one text for each such train. Mechanisms of more
-/// than a few hundred coordinates are not looked at.
+/// Couplings that lock each other at a pose, such as gears with contradictory ratios: even with drivers released, the bodies that they
+/// couple cannot move, but can if any one of the couplings is removed. @returns one text for each such train, with the names of its
+/// couplings. Mechanisms of more than 300 coordinates are not examined.
 std::vector<std::string> locked_couplings(const System&, double t, const Eigen::VectorXd& y);
 
 }  // namespace pintle

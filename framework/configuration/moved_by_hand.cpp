@@ -117,7 +117,7 @@ MatrixXd MovedByHand::freedoms(int most) const {
   MatrixXd basis(n, 0), out(n, 0);  // the first scaled and orthogonal, the second as returned
   for (int turn = 0; turn < 2 && out.cols() < wanted; ++turn)
     for (Eigen::Index k = 0; k < system_.n_rigid() && out.cols() < wanted; ++k) {
-      if ((k % 3 == 2) != (turn == 0)) continue;  // angles are what one usually drags
+      if ((k % 3 == 2) != (turn == 0)) continue;  // angles first, which users drag most
       VectorXd unit = VectorXd::Zero(n);
       unit[k] = system_.scale[k];
       VectorXd v = allowed(unit).cwiseQuotient(system_.scale);

@@ -10,7 +10,7 @@ class MovedByHand {
   /// @param y  coordinates that close the joints, at least nearly
   MovedByHand(const System&, const Eigen::VectorXd& y);
 
-  /// Moves a point of a body towards a position, as near as the joints allow, in small steps so as not to change branch by accident.
+  /// Moves a point of a body towards a position, as near as the joints allow, in small steps, to stay on the same branch.
   /// @param point  from the mass centre, body axes [m]   @returns false: the joints did not close, and nothing has moved
   bool pull(int body, const Eigen::Vector2d& point, const Eigen::Vector2d& to);
 

@@ -45,7 +45,7 @@ double deepest_inside(const std::vector<Eigen::Vector2d>& outline, const std::ve
   return out;
 }
 
-/// Checks outlines of which a part lies far inside the other, where one can no longer tell through which piece it came.
+/// Rejects outlines that overlap so deeply that the piece through which they entered is unknown.
 void require_outside(const Scene& scene, const Model& model, const State& start) {
   const auto placed = [&](const DrawnProfile& profile) {
     std::vector<Eigen::Vector2d> out;

@@ -248,7 +248,7 @@ JointRest newton_together(const System& system, Rest& rest, VectorXd& own, const
   return out;
 }
 
-/// From the rest that the mechanism would have without limits. @returns false: there is none within them either
+/// Starts from the equilibrium without limits. @returns false if this finds none within the limits
 bool from_rest_without_limits(const System& system, Rest& rest, VectorXd& own, const RestingStates& states, State& state, JointRest& out) {
   const std::optional<System> free = without_limits(system, states, Limits::all);
   if (!free) return false;

@@ -17,11 +17,12 @@ struct RestingStates {
 };
 RestingStates resting_states(const System&);
 
-/// The system without limits of the rates of sought states, which are 0 within these limits as without them; or without the limits of all
-/// laws of signals. Beyond a limit a law has no slope to follow. Kept states count as fixed. @returns nothing where there are none
+/// The system without the limits of the rates of sought states, or of all laws of signals: beyond a limit a law has zero slope, which
+/// Newton's method cannot follow. A rate that is 0 within its limits is also 0 without them. Kept states count as fixed. @returns nothing
+/// if there are no limits
 std::optional<System> without_limits(const System&, const RestingStates&, Limits);
 
-/// Are the sought states determined by the configuration, through their rates? @pre rest was projected onto the joints
+/// Whether the configuration determines the sought states, through their rates. @pre rest was projected onto the joints
 bool follow_the_pose(const System&, const RestingStates&, const Rest&, double t);
 
 /// Newton's method, damped as by Levenberg and Marquardt, on the free directions of the joints and the sought states.
@@ -30,7 +31,7 @@ struct JointRest {
   bool found = false;
   int iterations = 0;
   std::string reason;                     ///< why it failed, in words; empty: forces are out of balance
-  std::vector<std::string> undetermined;  ///< states that are not determined: other values would do as well
+  std::vector<std::string> undetermined;  ///< states that are not determined: other values are also possible
 };
 JointRest find_joint_rest(const System&, Rest&, Eigen::VectorXd& own, const RestingStates&, State&);
 

@@ -61,7 +61,7 @@ std::optional<VectorXd> moved(const System& system, double t, const VectorXd& y,
     VectorXd to = y;
     to.head(system.n()) += step * way;
     VectorXd C = held(to, &J);
-    for (int i = 0; i < 40 && C.lpNorm<Eigen::Infinity>() > 1e-12; ++i) {  // next to a branch each step leaves a quarter
+    for (int i = 0; i < 40 && C.lpNorm<Eigen::Infinity>() > 1e-12; ++i) {  // near a branch each step leaves a quarter of C
       to.head(system.n()) += least_step(J, W, -C, 1e-13, 2);
       C = held(to, &J);
     }
@@ -77,7 +77,7 @@ RowSpace row_space_at(const System& system, double t, const VectorXd& y, double 
   return row_space(system, eq, tolerance);
 }
 
-/// One of them ends with the same row as d.
+/// Whether one of them ends with the same row as d.
 bool ends_among(const std::vector<Dependence>& all, const Dependence& d) {
   return std::any_of(all.begin(), all.end(), [&](const Dependence& e) { return e.N.back().first == d.N.back().first; });
 }
@@ -92,7 +92,7 @@ MatrixXd basis(const std::vector<Dependence>& all, Index rows) {
   return Eigen::HouseholderQR<MatrixXd>(N).householderQ() * MatrixXd::Identity(N.rows(), N.cols());
 }
 
-/// Marks as many dependences as `all` has more than `permanent`, such that the others span the space nearest to `permanent`: null spaces
+/// Marks the dependences in `all` in excess of `permanent`, chosen such that the others span the space nearest to `permanent`: null spaces
 /// are compared, since rows and weights change with the configuration.
 std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector<Dependence>& permanent, Index rows) {
   std::vector<bool> out(all.size(), permanent.empty());
@@ -111,7 +111,7 @@ std::vector<bool> left_out(const std::vector<Dependence>& all, const std::vector
   return out;
 }
 
-/// The dependences of a configuration: those that also hold near it, and those that hold only in it.
+/// The dependences of a configuration: permanent ones, which also hold near it, and singular ones, which hold only there.
 struct Permanence {
   std::vector<Dependence> permanent, singular;
   std::vector<std::vector<Dependence>> near;  ///< all dependences in configurations nearby
@@ -301,7 +301,7 @@ std::string contradiction(const System& system, double t, const VectorXd& y, dou
 }
 
 std::string explain_pose(const System& system, double t, const VectorXd& y) {
-  constexpr double close = 1e-3;  // rest of a row so near to a dead centre that no step can continue
+  constexpr double close = 1e-3;  // remainder of a row: nearer to a dead centre, no step can continue
   const RowSpace space = row_space_at(system, t, y);
   std::string conflict = contradiction(system, t, y, t + 1e-2 * std::max(t, 1.0));
   if (!conflict.empty()) return conflict;

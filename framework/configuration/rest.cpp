@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Replaces their rates by ones that lead back to the given values.
+// Replaces the rates of kept states by ones that return them to the given values.
 void keep(System& held, const KeptStates& kept) {
   for (const int i : kept.which) {
     held.signals.push_back({MotionSignal::state, i});

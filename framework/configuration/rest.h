@@ -31,7 +31,7 @@ class Rest {
   double size(const Eigen::VectorXd& displacement) const;
   /// Largest remaining force or couple relative to the largest acting one.
   double residual() const;
-  /// The same in the metric of M⁻¹: the quantity that the flow reduces.
+  /// The same in the metric of M⁻¹, which the overdamped flow reduces.
   double unrest() const;
   double rounding() const { return 1e-14 * magnitude_; }  ///< of the potential energy
   double at_work() const;                                 ///< largest force, or couple over the mechanism's length

@@ -14,7 +14,7 @@ class RowSolver {
  public:
   static constexpr int dense_size = 150;
 
-  /// After pose.
+  /// Factors the rows. @pre pose
   void factor(const System&, const Equations&);
   /// x of least norm that minimises |Cq x − r|. @pre factor
   Eigen::VectorXd solve(const System&, const Eigen::VectorXd& r) const;

@@ -136,7 +136,7 @@ std::vector<DrivenCoordinate> driven_by_laws(const System& system) {
   return out;
 }
 
-/// A signal at a time, where a driver alone determines it; NaN otherwise. Angles are counted from the start.
+/// A signal at time t if a driver alone determines it, otherwise NaN. Angles continue from the start.
 double driven_value(const System& system, const std::vector<DrivenCoordinate>& drivers, const MotionSignal& signal, const State& start,
                     double t) {
   using Kind = MotionSignal::Kind;
@@ -234,7 +234,7 @@ void warn_of_signals(const Scene& scene, const Model& model, const State& state,
 
 std::string explain_signals(const Scene& scene, const Model& model, const State& start, const State& now) {
   if (model.system.laws.empty() || now.y.size() != model.system.n_y()) return "";
-  constexpr double ahead = 1e-9;  // relative to the run: where it would be next
+  constexpr double ahead = 1e-9;  // time step of an extrapolation, relative to the run
   std::string here = LawsAt(scene, model, start, now).found;
   if (!here.empty()) return here;
   const System& system = model.system;

@@ -21,7 +21,7 @@ Eigen::Matrix<double, 1, 4> rotation(const Bar&, const Coords<Bar>& x, double) {
   return row;
 }
 
-// Half height drawn for a section; a bar without a height gets a fiftieth of its length.
+// Half height drawn for a section; a fiftieth of the body's size if the section has no height.
 double half_height(const Fibre& fibre, double length) { return fibre.distance > 0 ? fibre.distance : 0.02 * length; }
 
 constexpr int stations = pieces_per_beam + 1;

@@ -20,7 +20,7 @@ struct Field {
   Eigen::MatrixXd values;
 };
 
-/// Writes points, with z = 0, and cells with fields on them, as an unstructured grid in one .vtu.
+/// Writes points, with z = 0, and cells with fields on them, as an unstructured grid in one .vtu file.
 /// @throws std::runtime_error  naming the path that cannot be written
 void write_grid(const std::filesystem::path&, const Eigen::Matrix2Xd& points, const std::vector<Cells>&,
                 const std::vector<Field>& on_points, const std::vector<Field>& on_cells = {}, double t = 0);

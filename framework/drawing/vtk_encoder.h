@@ -8,7 +8,7 @@
 namespace pintle {
 
 /// Interface of the module `vtk` (meshes/module.h), which links VTK, for the files of single bodies: they are large, written once, and
-/// compressed as much as zlib can. Frames, which are many and small, are written without VTK (frame_text.h).
+/// compressed as strongly as zlib can. Frames are many and small, and are written without VTK (frame_text.h).
 struct VtkEncoder {
   const char* version;
   /// The text of write_grid's file; nothing if VTK fails.

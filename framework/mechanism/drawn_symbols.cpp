@@ -31,7 +31,7 @@ FirstOwners::FirstOwners(const System& s)
 
 namespace {
 
-/// Short strokes to the left of a line, where the ground is; only those for which `near` is true.
+/// Short strokes to the left of a line, on the side of the ground, where `near` is true.
 template <class Near>
 void hatch(const Vector2d& from, const Vector2d& to, double spacing, int owner, const Near& near, Drawing& out) {
   const double length = (to - from).norm();

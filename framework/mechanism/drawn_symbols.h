@@ -28,7 +28,7 @@ void draw_actuators(const System&, const Drafting&, const Equations&, Drawing&);
 /// Forces and couples of joints, springs and loads, each on the body that its columns name. Contacts draw their own.
 void draw_reactions_and_loads(const System&, const Equations&, Drawing&);
 
-/// The points of `output.points`, or if there are none the moving pins; and the point of each contact.
+/// The points of `output.points`, or if there are none, the moving pins (if at most 12); and the point of each contact.
 void follow_points(const Model&, const State&, const Equations&, Drawing&);
 
 }  // namespace pintle

@@ -12,7 +12,7 @@ namespace pintle {
 
 namespace {
 
-/// A part beside or behind a piece does not overlap it: its distance is that from the piece's end.
+/// A part beside or behind a piece does not overlap it; its distance is then that from the piece's end.
 void as_far_as_the_end(double beside, double rate, Gap& gap) {
   const double distance = std::hypot(gap.depth, beside);
   if (distance > 0) gap.rate = -(gap.depth * gap.rate + beside * rate) / distance;

@@ -7,8 +7,8 @@
 
 namespace pintle {
 
-/// A law that names columns of trajectory.csv or outputs: in any state it is computed from the row that would be written, for which the
-/// equations of motion are solved. Copies have their own scratch.
+/// A law of columns of trajectory.csv or outputs. It is evaluated on the row that would be written in a state, for which the
+/// equations of motion are solved. Each copy has its own workspace.
 class RowLaw {
  public:
   /// @param of  must be complete before the first call

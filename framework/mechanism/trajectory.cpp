@@ -34,7 +34,7 @@ bool is_flexible(const System& system) { return system.n() > system.n_rigid(); }
 /// Motion of a marker that no joint uses; for a point of a flexible body also its displacement by deformation.
 struct PointMotion {
   Eigen::Vector2d r, v, a, u;  ///< position, velocity, acceleration in world axes; displacement in body axes
-  double turn = 0;
+  double turn = 0;             ///< rotation by deformation [rad]
 };
 PointMotion motion_of(const System& system, const Marker& m, const State& state, const Equations& eq) {
   if (m.body == ground) return {m.x_BP, {0, 0}, {0, 0}, {0, 0}};

@@ -24,7 +24,7 @@ const char* coefficients_text(Coefficients c) {
   return "";
 }
 
-/// Appends a text field followed by numbers as a row.
+/// Appends a row of a text field and numbers.
 void append_row(std::string& out, const std::string& name, const Eigen::VectorXd& values) {
   out += csv_field(name);
   for (const double x : values) {

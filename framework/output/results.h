@@ -16,7 +16,7 @@ void write_results(const std::filesystem::path& directory, const Scene&, const M
 
 /// The contents of run.json, as text.
 std::string run_json(const Scene&, const Model&, const Assembly&, const Run&);
-/// The run.json of a run that has begun: what remains if the program is killed. Its status is "unfinished".
+/// The run.json of a run that has begun, which remains if the program is killed. Its status is "unfinished".
 std::string begun_json(const Scene&);
 /// The output of `pintle check --json`.
 std::string check_json(const Scene&, const Model&, const Assembly&, const CostEstimate&);

@@ -28,7 +28,7 @@ void require_new(const fs::path& directory) {
   if (fs::exists(there)) throw std::runtime_error(directory.string() + ": exists already; name another directory with --out, or remove it");
 }
 
-/// A folder of an unused name like `path`. What the user has named is `final`: if it fails, this is said of it.
+/// Creates a folder with an unused name based on `path`. Errors name `final`, the folder that the user named.
 fs::path made_beside(const fs::path& path, const fs::path& final) {
   try {
     return make_unique_folder(path);
@@ -99,11 +99,11 @@ std::optional<double> time_of_last_row(const fs::path& folder) {
 
 namespace {
 
-/// Whether run.json says how a run ended. It says so in its first lines.
+/// Whether run.json says that the run has ended. Its first lines say so.
 bool has_ended(const fs::path& folder) {
   std::ifstream in(folder / "run.json", std::ios::binary);
   std::error_code error;
-  if (!in) return fs::exists(folder / "run.json", error);  // it cannot be read: nothing is known
+  if (!in) return fs::exists(folder / "run.json", error);  // unreadable: counts as ended
   std::string head(4096, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   return in.gcount() > 0 && head.find("\"status\": \"unfinished\"") == std::string::npos;
@@ -159,7 +159,7 @@ ResultsDirectory::ResultsDirectory(const fs::path& directory) : final_(without_s
   }
   ::mkdir(frames_.c_str(), 0777);
   lock_ = ::open(staging_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);  // an aid to others: what fails here may fail
+  if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);  // it only informs other programs, so a failure is ignored
 }
 
 ResultsDirectory::~ResultsDirectory() {

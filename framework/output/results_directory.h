@@ -7,22 +7,22 @@
 
 namespace pintle {
 
-/// A directory filled next to its final place, as DIR.part-XXXXXX with unique letters, and renamed as a whole by `commit`. If that never
-/// happens, the results stay where they are; an empty one is removed.
+/// A directory filled next to its final place, as DIR.part-XXXXXX with unique letters, and renamed as a whole by `commit`. Without `commit`
+/// the results stay there, and an empty directory is removed.
 class ResultsDirectory {
  public:
   /// @throws FileError  `directory` exists or cannot be created
   explicit ResultsDirectory(const std::filesystem::path& directory);
   ~ResultsDirectory();
   ResultsDirectory(const ResultsDirectory&) = delete;
-  const std::filesystem::path& path() const { return staging_; }  ///< where to write before that
+  const std::filesystem::path& path() const { return staging_; }  ///< where to write before `commit`
   bool holds_files() const;
   /// Syncs everything to disk, then renames it. @throws FileError  naming where the results are
   void commit();
 
  private:
   std::filesystem::path final_, staging_, frames_;
-  int lock_ = -1;  ///< held on the staging folder: a killed program lets it go
+  int lock_ = -1;  ///< lock on the staging folder, which the system releases if the program is killed
   bool committed_ = false;
 };
 
@@ -35,11 +35,11 @@ std::filesystem::path without_slash(const std::filesystem::path&);
 /// Leftovers of aborted or unfinished runs next to a results directory.
 std::vector<std::filesystem::path> leftovers(const std::filesystem::path& directory);
 
-/// The time of the last complete row of its trajectory.csv: how far a killed run had come, to about a second of its work.
+/// The time of the last complete row of its trajectory.csv: how far a killed run had come, to within about a second of computing.
 std::optional<double> time_of_last_row(const std::filesystem::path& folder);
 
-/// What a folder without what a command needs holds, and what can be done: "its run was killed …; run its scene again". Empty if it is a
-/// finished run, or nothing that is known.
+/// Explains why a folder lacks what a command needs, and the remedy: "its run was killed …; run its scene again". Empty if it holds a
+/// finished run, or nothing known.
 /// @param lacking  "rows", "frames"
 std::string why_without(const std::string& lacking, const std::filesystem::path& folder);
 

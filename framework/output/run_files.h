@@ -21,7 +21,7 @@ class RunFiles {
   void add(const Table& trajectory, const Table& ledger, const std::vector<Impact>&, const std::vector<Happening>&);
   /// Writes buffers to disk. @throws FileError
   void flush();
-  /// Writes the impacts still going on and the buffers. @throws FileError  the first of them; all are closed
+  /// Writes the impacts in progress and the buffers, and closes all files. @throws FileError  the first error
   void finish(const std::vector<Impact>&, const std::vector<Happening>&);
 
  private:
@@ -36,10 +36,10 @@ class RunFiles {
   std::string row_;
 };
 
-/// Disk space reserved for a file, as an open file without a name: a killed program leaves nothing of it.
+/// Disk space reserved for a file, by an open file without a name, so that nothing remains if the program is killed.
 class ReservedRoom {
  public:
-  /// @param file  for which it is kept, and beside which it is   @throws FileError  there is not enough space
+  /// @param file  for which space is reserved, in its folder   @throws FileError  there is not enough space
   ReservedRoom(const std::filesystem::path& file, std::size_t bytes);
   ~ReservedRoom() { release(); }
   ReservedRoom(const ReservedRoom&) = delete;

@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// The beginning of every description of a run.
+/// The entries with which every description of a run begins.
 nlohmann::ordered_json run_head(const Scene&, const Run&);
 
 }  // namespace pintle

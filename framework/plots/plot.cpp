@@ -72,7 +72,7 @@ Axes axes_of(const Panel& p, double x_at, double y_at) {
   };
   if (fit_y) give_room(y0, y1, 0.05);
   const bool dotted = std::ranges::any_of(p.curves, [](const Curve& c) { return c.points; });
-  if (fit_x && (dotted || x0 == x1)) give_room(x0, x1, 0.02);  // dots at the ends are to be whole
+  if (fit_x && (dotted || x0 == x1)) give_room(x0, x1, 0.02);  // so that dots at the ends are not cut off
   if (p.equal) {
     const double scale = std::max((x1 - x0) / width, (y1 - y0) / height) * 1.05;
     const double xm = (x0 + x1) / 2, ym = (y0 + y1) / 2;

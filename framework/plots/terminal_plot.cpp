@@ -76,7 +76,7 @@ void draw_curve(const Curve& curve, const Span& x, const Span& y, Dots& dots) {
 }  // namespace
 
 std::string terminal_plot(const Panel& panel, int columns, int rows) {
-  constexpr int words = 12;  // for the numbers on the left
+  constexpr int words = 12;  // characters for the numbers on the left
   Dots dots(std::max(columns - words - 2, 20), std::max(rows - 3, 4));
   Span x, y;
   for (const Curve& c : panel.curves) {

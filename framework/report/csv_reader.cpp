@@ -71,7 +71,7 @@ bool CsvReader::read_record() {
     ++lines_;
   }
   if (in_.eof()) {
-    if (is_unfinished(file_.parent_path())) return false;  // whole records count
+    if (is_unfinished(file_.parent_path())) return false;  // only complete records count
     fail("the line is cut off: it has no newline");
   }
   if (!record_.empty() && record_.back() == '\r') record_.pop_back();

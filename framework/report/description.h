@@ -18,10 +18,10 @@ struct Description {
 /// Nothing if there is no such file. @throws ResultsError  it is not a JSON object
 std::optional<Description> description(const std::filesystem::path& directory, const std::string& question);
 
-/// Whether these are results of a run that is going on or was killed: tables end anywhere.
+/// Whether these are results of a run in progress or killed, whose tables may end anywhere.
 bool is_unfinished(const std::filesystem::path& directory);
 
-/// The part shown on a page: the scene as text of at most `most_text` bytes, and no other entry that is as long.
+/// The part shown on a page: the scene, cut to `most_text` bytes, the warnings, and all other entries of at most 20 kB.
 nlohmann::ordered_json facts(const Description&, std::size_t most_text);
 
 }  // namespace pintle

@@ -39,7 +39,7 @@ std::vector<Corners> triangles_of(const std::vector<Cells>& all) {
   return out;
 }
 
-/// The square of a grid that each point is in, represented by the first point found in it.
+/// For each point, the first point found in the same square of a grid.
 std::vector<int> first_in_square(const Eigen::Matrix2Xd& x, double width) {
   std::map<std::pair<long, long>, int> first;
   std::vector<int> out;
@@ -68,7 +68,7 @@ std::vector<std::array<int, 2>> rim_of(const std::vector<Corners>& triangles) {
   return out;
 }
 
-/// Ribbons of beams have separate points where they meet: coinciding ones count as one.
+/// Merges coinciding points: ribbons of beams have separate points where they meet.
 void join_coinciding(const FlexibleDrawing& body, std::vector<int>& stands_for) {
   const std::vector<int> same = first_in_square(body.points(), 1e-9 * body.size());
   for (int& p : stands_for) p = same[at(p)];

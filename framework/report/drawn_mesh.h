@@ -14,7 +14,7 @@ struct DrawnMesh {
   std::vector<std::array<int, 2>> rim;  ///< sides of a single triangle
 };
 
-/// @param most  points; for a finer body one point is kept in each square of a grid, and triangles within one or two squares are removed
+/// @param most  points; of a finer mesh, one point is kept in each square of a grid, and triangles within one or two squares are removed
 DrawnMesh drawn_mesh(const FlexibleDrawing&, std::size_t most);
 
 }  // namespace pintle

@@ -39,7 +39,7 @@ std::optional<Description> motion_in(const fs::path& directory) {
 }
 
 Scene scene_of(const Description& results) {
-  std::string file = results.json.value("file", std::string());  // meshes and tables are looked up next to it
+  std::string file = results.json.value("file", std::string());  // meshes and tables are next to it
   if (file.empty()) file = results.file.string();
   Scene scene = read_scene_text(results.json["scene"].dump(), file, {}, fs::path(file).parent_path());
   scene = results.question == "kinematics" ? ready_for_kinematics(std::move(scene)) : with_pieces(std::move(scene));

@@ -20,7 +20,7 @@ struct ReducedTable {
   std::size_t rows = 0;       ///< of the file
   bool whole = true;          ///< all of them are included, in one sheet
   std::vector<Sheet> sheets;  ///< otherwise one per column: the least and greatest value of each stretch of rows
-  Sheet poses;                ///< then some columns at evenly spaced rows, for drawing; otherwise empty
+  Sheet poses;                ///< in that case, some columns at evenly spaced rows, for drawing; otherwise empty
 };
 
 /// Limits of the numbers kept of a table.
@@ -32,7 +32,7 @@ struct SheetLimits {
 /// @param drawn  names of columns, without units, for the positions drawn   @throws ResultsError
 ReducedTable reduced_by_column(const std::filesystem::path&, const SheetLimits&, const std::vector<std::string>& drawn);
 
-/// The same in one sheet: complete rows in which some column is least or greatest in a stretch.
+/// The same in one sheet, of the complete rows in which a column has its least or greatest value of a stretch.
 ReducedTable reduced_by_row(const std::filesystem::path&, std::size_t most_values);
 
 }  // namespace pintle

@@ -29,7 +29,7 @@ constexpr TableKind kinds[] = {{"sweep", "", "", "", false},
                                {"linearized", "frequency", "damping ratio", "kind", false},
                                {"modes", "mode", "frequency", "", false}};
 
-/// A number if the complete field is one.
+/// The number, if the whole field is one.
 TableJson value_of(const std::string& field) {
   if (field.empty()) return nullptr;
   double x = 0;

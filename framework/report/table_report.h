@@ -11,7 +11,7 @@ namespace pintle {
 bool has_table_page(const std::filesystem::path& directory);
 
 /// The table of a `sweep`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder has none.
-/// @param most_rows  for a longer table, evenly spaced rows are kept, and those in which a column is least or greatest
+/// @param most_rows  of a longer table, evenly spaced rows are kept, and those with the least or greatest value of a column
 /// @throws ResultsError
 std::optional<std::string> table_page(const std::filesystem::path& directory, std::size_t most_rows, std::size_t most_text);
 

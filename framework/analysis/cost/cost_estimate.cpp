@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 double since(double begin) { return processor_time() - begin; }
 
-/// Rough computing time of a step [s], from the sizes of the model: it sets the number of steps of a trial, so that this is the same each
-/// time; the actual time of a step is measured.
+/// Rough computing time of a step [s], from the size of the model. It sets the number of steps of a trial, so that this number is
+/// reproducible; the actual time of a step is measured.
 double rough_step_seconds(const System& s, const Scheme& scheme) {
   const double rows = s.n_rows(), bodies = static_cast<double>(s.bodies.size());
   double evaluation = 0.2e-6 + 0.06e-6 * bodies + 0.015e-6 * static_cast<double>(s.markers.size()) + 0.06e-6 * rows +
@@ -91,7 +91,7 @@ Tried try_for(Integrator& run, const System& system, const Scheme& scheme, doubl
   return try_out(run, until, std::max(least_steps, static_cast<long>(steps)), clock_factor * seconds);
 }
 
-/// Measures the cost of rows by making some inside the last step of a trial.
+/// Measures the cost of rows by making some within the last step of a trial.
 void estimate_rows(const Scene& scene, const Model& model, Integrator& run, OutputCost& out) {
   const double until = scene.run.until, every = scene.output.every > 0 ? scene.output.every : until / 1000;
   out.rows = static_cast<long>(std::ceil(until / every - 1e-9)) + 1;
@@ -198,7 +198,7 @@ void estimate_rates(const Scene& scene, const System& system, CostEstimate& p) {
 
 double part_saved(const CostEstimate& p, double seconds) { return p.seconds.likely > 0 ? 1 - seconds / p.seconds.likely : 0; }
 
-/// Savings by fewer outputs need no trial.
+/// Savings from fewer outputs, which need no trial.
 void save_outputs(CostEstimate& p) {
   const auto less = [&](const std::string& what, double seconds) {
     if (seconds > 0) p.simpler.push_back({what, p.run, true, part_saved(p, p.seconds.likely - seconds)});

@@ -14,7 +14,7 @@ struct Trial {
   double reached = 0;     ///< [s] of the run
   bool whole = false;     ///< it reached the run's end: nothing needs to be estimated
   bool by_clock = false;  ///< stopped because it took too long
-  double seconds = 0;     ///< computing time, without outputs
+  double seconds = 0;     ///< computing time, without outputs [s]
   std::string trouble;    ///< why it could not continue, in words
 };
 
@@ -23,8 +23,8 @@ struct Estimate {
   double low = 0, likely = 0, high = 0;
 };
 
-/// Estimates the steps of a whole run from a part: the steps so far, and for the rest the rate in the second half of the part; as bounds
-/// the rates of its quarters, except the first, which contains the start-up.
+/// Estimates the steps of a whole run from a part of it: the steps so far, plus the rest at the step rate of the part's second half. The
+/// bounds use the rates of its quarters, except the first, which contains the start-up.
 /// @param ends  times at which the steps ended, ascending, of a run from 0 [s]
 Estimate steps_of_run(const std::vector<double>& ends, double until);
 
@@ -32,7 +32,7 @@ struct RunCost {
   Trial trial;
   Estimate steps;
   double step = 0;   ///< mean of the whole run, most likely value [s]
-  Estimate seconds;  ///< computing time without outputs, if steps take as long as in the trial
+  Estimate seconds;  ///< computing time without outputs, if steps take as long as in the trial [s]
 };
 
 /// What leaving something out would save.
@@ -46,7 +46,7 @@ struct Saving {
 /// Cost of the output.
 struct OutputCost {
   long rows = 0;            ///< of trajectory.csv and ledger.csv
-  double row_seconds = 0;   ///< to compute, record and write one row
+  double row_seconds = 0;   ///< to compute, record and write one row [s]
   double row_bytes = 0;     ///< of both files, as text
   std::size_t columns = 0;  ///< of both
   int frames = 0;
@@ -64,15 +64,15 @@ struct CostEstimate {
   double until = 0;         ///< [s]
   RunCost run;
   OutputCost output;
-  Estimate seconds;             ///< total: computing and outputs
+  Estimate seconds;             ///< total: computing and outputs [s]
   double memory = 0;            ///< at the end: present memory of the program, plus likely impacts; rows are written as they come [bytes]
   std::vector<Saving> simpler;  ///< the largest first
   std::vector<std::string> untried;  ///< simplifications not tried for lack of time
 };
 
-/// Tries out the run and simpler ones, each for its share of the time; those that end earlier are run completely. Meshes nothing and writes
-/// nothing except, if the scene has frames, a few in a temporary folder.
-/// @param seconds  total computing time of the trials; it determines their lengths by counts, not by the clock
+/// Tries the run and simpler ones, each for its share of the time; runs that end earlier are complete. Meshes nothing, and writes nothing
+/// except a few frames in a temporary folder if the scene has frames.
+/// @param seconds  total computing time of the trials [s]; sets their lengths by numbers of steps, not by the clock
 /// @throws std::runtime_error  a frame cannot be written
 CostEstimate estimate_cost(const Scene&, const Model&, const Assembly&, double seconds = 1);
 

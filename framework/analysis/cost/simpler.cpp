@@ -115,8 +115,8 @@ class Maker {
  private:
   static constexpr std::size_t few = 3;
 
-  /// The model's start; where links have become pins, the start of the model without them, with journals in the middle of their bearings:
-  /// otherwise shapes that had to compensate for the length of a link would oscillate.
+  /// The model's start; if links have become pins, the start of the model without these links, with journals in the middle of their
+  /// bearings. Otherwise shapes would have to compensate for the length of a link, and would oscillate.
   State start_for(const System& simpler) const {
     System open = model_.system;
     for (std::size_t c = 0; c < open.contacts.size(); ++c)

@@ -106,7 +106,7 @@ std::vector<DriverEffort> find_efforts(const Model& model, const Assembly& assem
     bool done = true;
     for (std::size_t d = 0; d < out.size(); ++d) {
       out[d].error = spline_error(out[d]);
-      done = done && (!(out[d].error > enough * largest_of(out[d].value)) || out[d].error > smooth * before[d]);  // a law with jumps
+      done = done && (!(out[d].error > enough * largest_of(out[d].value)) || out[d].error > smooth * before[d]);  // the law jumps
       before[d] = out[d].error;
     }
     if (done || 2 * n > most) return out;

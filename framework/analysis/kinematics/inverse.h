@@ -13,7 +13,7 @@ struct DriverEffort {
   std::string name;
   bool turns = true;             ///< torque [N m], otherwise thrust [N]
   std::vector<double> t, value;  ///< fine enough for a table in a scene, see `error`
-  double error = 0;              ///< largest difference between a spline through the rows and the effort midway between them; NaN: unknown
+  double error = 0;  ///< largest error of a spline through every second row, at the others, in the unit of `value`; NaN: unknown
 };
 
 /// Driving efforts and joint forces of a driven mechanism.
@@ -31,8 +31,8 @@ struct Inverse {
 /// @throws SceneError  the scene has no driver
 Inverse inverse(const Scene&, const Model&, const Assembly&, const Listeners& = {});
 
-/// The assembled start with flexible bodies deformed such that M a + Cqᵀλ = f holds with η̇ = η̈ = 0 and the frames moving as prescribed by
-/// drivers and `start`. @returns the start unchanged if there is no such shape or it is not found
+/// The assembled start with flexible bodies deformed such that M a + Cqᵀλ = f holds with η̇ = η̈ = 0, while the frames move as the drivers
+/// prescribe. @returns the start unchanged if drivers do not determine all frames, if no such shape is found, or above 600 coordinates
 Assembly steady_start(const Model&, const Assembly&);
 
 /// trajectory.csv, NAME.csv of each driver and inverse.json in `directory`; for an integrated motion also the files of a run. @throws

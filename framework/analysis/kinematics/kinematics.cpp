@@ -41,7 +41,7 @@ std::vector<double> output_times(const Scene& scene) {
   return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
 }
 
-/// Of the animation; empty if there is none.
+/// Times of the frames; empty without an animation.
 std::vector<double> frame_times(const Scene& scene) {
   return scene.output.frames > 1 ? even_times(scene.run.until / (scene.output.frames - 1), scene.run.until) : std::vector<double>{};
 }
@@ -172,7 +172,7 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
                         "the clearance at " + some_of(loose) +
                             " leaves degrees of freedom that no driver moves; leave `clearance` out here, or use `pintle run`");
   if (open <= 0) return;
-  // A displacement that violates no row, obtained from one that moves everything.
+  // A displacement that satisfies all rows, projected from one that moves everything.
   Equations eq(system);
   pose(system, 0, assembly.start.y, eq);
   RowSolver rows;
@@ -267,7 +267,7 @@ void keep_outputs_of(const Model& model, Model& told) {
 
 Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
   require_driven(scene, model, assembly);
-  Model told = model;  // what is written: no forces, and no states, which would follow from rates over time
+  Model told = model;  // what is written: no forces, and no states, whose rates would have to be integrated
   told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.system.frictions.clear();
   told.system.internal.clear(), told.system.states.clear(), told.stresses.clear(), told.order = {};
   keep_outputs_of(model, told);

@@ -11,13 +11,13 @@ namespace pintle {
 
 /// The motion of rigid bodies that drivers determine completely: positions by Newton's method from the prediction q + hs + ½h²a, speeds by
 /// Cq s = −Ct, accelerations by Cq a = γ, redundant rows by least squares. Masses have no effect. A step whose correction, or whose change
-/// of speed, is larger than its prediction allows is divided, so that the linkage does not change branch by accident; through a singular
-/// configuration the prediction decides.
+/// of speed, is larger than its prediction allows is divided, so that the linkage does not jump to another branch; at a singular
+/// configuration the prediction selects the branch.
 class DrivenMotion {
  public:
   /// @pre start nearly satisfies C = 0
   DrivenMotion(const System&, State start);
-  /// Advances to time t ≥ state().t. @returns false when it cannot; see failure()
+  /// Advances to time t ≥ state().t. @returns false if this fails; see failure()
   bool advance(double t);
 
   const State& state() const { return state_; }
@@ -61,7 +61,7 @@ std::string kinematics_json(const Scene&, const Model&, const Run&);
 
 /// Follows a driven motion through the scene's outputs, recorded in the run's table as defined by `told`, and its frames, until its end, a
 /// failure or the listener's stop. Fills in status, reason, times and counts of the run.
-/// @param advance  advances to a time and evaluates what is recorded there; false: it cannot, see failure()
+/// @param advance  advances to a time and evaluates what is recorded there; returns false if this fails, see failure()
 void follow(const Scene&, const Model& told, DrivenMotion&, const std::function<bool(double)>& advance, const Listeners&, Run&);
 
 }  // namespace pintle

@@ -123,7 +123,7 @@ void add_zero_modes(const System& system, const std::vector<QuadraticRoot>& root
   }
 }
 
-// Coefficients that change by `drift` in `window` make amplitudes grow or decay at that rate, which is not a growth of the motion.
+// Coefficients that change by `drift` within `window` make amplitudes grow or decay at that rate, which is no instability.
 std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, const SmallMotion& moving, const SmallMotion& size,
                                  const Linearization& lin) {
   const double pace = lin.coefficients != Coefficients::frozen && lin.window > 0 ? lin.drift / lin.window : 0;
@@ -145,7 +145,7 @@ std::vector<LinearMode> modes_of(const System& system, const MotionAt& here, con
   return out;
 }
 
-// "load" has, of the names with units.
+// `"load" has`, or `"load", "lag" have`: the names without their units.
 std::string held_states(const MotionAt& here, const std::vector<int>& held) {
   std::string out;
   for (const int i : held) {
@@ -155,7 +155,7 @@ std::string held_states(const MotionAt& here, const std::vector<int>& held) {
   return out + (held.size() > 1 ? " have" : " has");
 }
 
-// Surfaces that overlap although the state contains no impact, as at a start.
+// Closes contacts whose surfaces overlap although the state contains no impact, as at a start.
 State with_contacts_closed(const System& system, State state) {
   state.impact_rate.resize(system.contacts.size(), 0.0);
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {

@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// A root of (λ² M + λ D + K) x = 0, yᴴ (λ² M + λ D + K) = 0; with internal states, including their part.
+/// A root of (λ² M + λ D + K) x = 0, yᴴ (λ² M + λ D + K) = 0; with internal states, the vectors include their part.
 struct QuadraticRoot {
   std::complex<double> lambda;  ///< [1/s]
   Eigen::VectorXcd right, left;
@@ -17,7 +17,7 @@ struct QuadraticRoot {
 
 /// All 2m + n_x roots, by magnitude. If D is zero and K symmetric, they are those of a symmetric problem, exactly on an axis; otherwise
 /// those of the balanced companion matrix by LAPACK. Each is then improved by the quotient of its own quadratic yᴴ(λ² M + λ D + K)x, which
-/// keeps slow roots accurate besides fast ones. With internal states they are as computed by LAPACK.
+/// keeps slow roots accurate in the presence of fast ones. With internal states they are those computed by LAPACK.
 /// @param size  terms summed for the coefficients, without cancellation: defines what counts as rounding
 /// @pre M is symmetric positive definite
 /// @throws std::runtime_error  M is not, or the iteration for roots does not converge

@@ -49,8 +49,8 @@ void fill_jacobian(const Equations& eq, MatrixXd& Cq) {
   visit_jacobian(eq, [&](int row, int column, double value) { Cq(row, column) += value; });
 }
 
-// As many columns as P has independent rows: those that determine the motion of the others best. Shapes follow from frames rather than
-// frames from shapes.
+// The dependent coordinates: as many well-conditioned columns as P has independent rows, which the other coordinates then determine.
+// Columns of frames are preferred, so that shapes stay independent where possible.
 std::vector<int> dependent_columns(const System& system, MatrixXd P) {
   constexpr double rank_threshold = 1e-9, of_shapes = 1e-3;
   if (P.rows() == 0) return {};
@@ -81,7 +81,7 @@ SmallMotion without_held(SmallMotion s, Index first, std::vector<int>& held) {
     return i >= first && (unchanged || (s.F.col(i).isZero(0) && s.G_x(moving, i).isZero(0)));
   };
   for (auto one = std::ranges::find_if(moving, is_held); one != moving.end(); one = std::ranges::find_if(moving, is_held))
-    moving.erase(one);  // what only this one changes is held too
+    moving.erase(one);  // a state that changes only with this one is then held too
   held = others(s.G_x.rows(), moving);
   if (held.empty()) return s;
   return {s.M,

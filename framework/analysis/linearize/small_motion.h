@@ -16,9 +16,9 @@ struct SmallMotion {
   Eigen::MatrixXd F = {}, G_p = {}, G_v = {}, G_x = {};
 };
 
-/// Without states x whose root is exactly 0 and no motion: nothing here changes them, as a parameter that events set, or they change
-/// nothing, as a counter. The other roots stay as they are.
-/// @param first  the first of x that may be left out  @param held  indices into x of those left out, rising
+/// Removes states x whose root is exactly 0 and belongs to no motion: either nothing changes them (a parameter set by events) or they
+/// change nothing (a counter). The other roots stay the same.
+/// @param first  the first of x that may be removed  @param held  indices into x of those removed, ascending
 SmallMotion without_held(SmallMotion, Eigen::Index first, std::vector<int>& held);
 
 /// The equations of motion at a state: accelerations and derivatives of the residual, n × n.
@@ -55,7 +55,7 @@ struct FreeMotion {
 
   std::vector<int> independent, dependent;
   bool full_rank = true;                  ///< all rows of Cq are independent
-  std::vector<double> left;               ///< per offset, the part that other rows prevent: 0 to rounding, or they contradict it
+  std::vector<double> left;               ///< per offset, the part prevented by other rows: 0 to rounding, or they contradict it
   Eigen::MatrixXd X, X1, X2;              ///< n × (m + offsets)
   Eigen::MatrixXd Cq, Cq_rate, Cq_accel;  ///< and its derivatives along the motion
 

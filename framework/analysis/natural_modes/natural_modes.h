@@ -21,7 +21,7 @@ struct ModesReport {
   ModeTable natural;                 ///< of the body on its supports, free without supports
   int rigid = 0;                     ///< rigid motions that the supports allow, at zero frequency; not in the table
   std::optional<ModeTable> reduced;  ///< used in a mechanism, if the body has `modes`
-  double seconds = 0;                ///< computing time for the natural modes
+  double seconds = 0;                ///< computing time for the natural modes [s]
 };
 
 /// @param count  number of natural modes; at most what the body has

@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-/// Did the run end for lack of disk space or memory?
+/// Whether the run ended for lack of disk space or memory.
 bool ended_short(const Run&);
 /// Called in an exception handler: sets status and reason of a run that the exception ends. Rethrows anything but a FileError or lack of
 /// memory. @param t  reached [s]

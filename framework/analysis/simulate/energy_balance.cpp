@@ -45,7 +45,7 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
                          " J; " + for_finer_books(scheme));
 }
 
-/// What may have made an impact at this contact add energy, and what to do about it.
+/// Why an impact at this contact may have added energy, and the remedy.
 std::string reason_of_gain(const ContactPair& pair, const Scheme& scheme) {
   const std::string steps = "an error of the steps, which falls with their length; shorten moreau.step";
   std::string law = pair.rigid->poisson
@@ -56,8 +56,8 @@ std::string reason_of_gain(const ContactPair& pair, const Scheme& scheme) {
   return pair.friction ? steps + ", or if this does not help: " + law + " and another method" : steps;
 }
 
-// An impact takes energy from the motion, that of all contacts struck at one instant together. Steps through an impact, or Newton's law with
-// friction (Kane 1984), can add some instead: the ledger closes, because it counts a negative loss.
+// An impact takes energy from the motion, counted together for all contacts struck at one instant. Steps through an impact, or Newton's law
+// with friction (Kane 1984), can add energy instead: the ledger still closes, because it counts a negative loss.
 void warn_of_gains(const System& system, const Scheme& scheme, Run& run) {
   struct Struck {
     double lost = 0, least = 0;

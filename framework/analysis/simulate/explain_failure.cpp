@@ -13,7 +13,7 @@ namespace pintle {
 
 namespace {
 
-/// Bodies with the least and the most inertia against a force, in translation or rotation.
+/// Bodies with the least and the greatest effective mass against a force, in translation or rotation.
 struct Unlike {
   std::size_t light = 0, heavy = 0;
   double ratio = 1;
@@ -48,9 +48,9 @@ std::string explain_numbers(const System& system, const Integrator& integrator) 
            number_text(angle * 2.2e-16 * system.length, 3) + " m; begin again from this state with angles in one turn";
   if (system.n() != system.n_rigid() || system.n_rows() == 0) return "";
   const Unlike bodies = most_unlike(system);
-  const bool implicit = integrator.implicit();  // which finds joint forces without the inverse of the masses
+  const bool implicit = integrator.implicit();  // computes joint forces without inverting the masses
   const double kept = implicit ? 1 : integrator.sampled().schur.kept();
-  constexpr double hopeless = 1e12;  // the lighter is lost in sums with the heavier
+  constexpr double hopeless = 1e12;  // the lighter body is lost in rounding beside the heavier
   if (!(bodies.ratio > unlike && (kept < few || bodies.ratio > hopeless))) return "";
   const std::string leaves = implicit ? "" : ", which leaves " + number_text(kept, 3) + " of what the joint forces are found from";
   const std::string otherwise = implicit ? "" : ", or take method: generalized-alpha";

@@ -8,9 +8,9 @@
 
 namespace pintle {
 
-/// Describes a failure of an integrator, and its cause where cams, laws, the configuration or its numbers show it; the effects of laws come
-/// first.
-/// @param otherwise  added where none of them is the cause; may be empty
+/// Describes a failure of an integrator and, if they show it, its cause: first cams and laws, then the configuration, then very large or
+/// unequal numbers.
+/// @param otherwise  added if none of them is the cause; may be empty
 std::string explained_failure(const Scene&, const Model&, const State& start, Integrator&, const std::string& otherwise = {});
 
 }  // namespace pintle

@@ -155,7 +155,7 @@ class Sum : public ValueWriter<Sum> {
     const auto& [kind, a, b, offset] = signal;
     add(kind, a, b, offset);
   }
-  /// Samples it at the times used for a law of time, with signals of both signs over the same decades.
+  /// Samples it at the times of a law of time, with signals of both signs over the same decades; signal k (from 0) is 1 + 0.1 k times the first.
   void add(const SignalLaw& law) {
     const auto& [of, in, sided, first_side] = law;  // the sides belong to the same function
     add(in);
@@ -187,9 +187,9 @@ class Sum : public ValueWriter<Sum> {
 
  private:
   static constexpr int decades = 12, each = 40, samples = decades * each;
-  /// From a microsecond to ten days, or numbers as large.
+  /// From 1e-6 s to 1e6 s (eleven days), or signals of this size in SI units.
   static double sampled(int i) { return 1e-6 * std::pow(10, static_cast<double>(i) / each); }
-  /// What a law says outside its range is added too.
+  /// The message of a law outside its range is added too.
   void sample(const std::function<void()>& add_value) {
     try {
       add_value();

@@ -86,7 +86,7 @@ void warn_of_stiffness(const Scene& scene, const Model& model, double share, Run
 }
 
 void warn_of_coarse_forces(const Model& model, bool implicit, Run& run) {
-  constexpr double multiple = 5e3, much = 0.1;  // errors of forces over the tolerance, as docs/results.md promises; of the peak
+  constexpr double multiple = 5e3, much = 0.1;  // error of forces over the tolerance, as stated in docs/results.md; relative to their peak
   if (!implicit || model.system.joints.empty() || model.scheme.tolerance * multiple <= much) return;
   run.warnings.push_back("generalised-α at a tolerance of " + number_text(model.scheme.tolerance, 2) +
                          " leaves errors of several per cent of their peaks in joint forces and torques of drivers, of tens of per cent "

@@ -42,7 +42,7 @@ struct Run {
   double ledger_floor = 0;                 ///< additional allowance for rounding [J]
   Counts counts;
   double worst_position = 0, worst_velocity = 0;  ///< scaled constraint violations
-  double seconds = 0;                             ///< processor time of computing, without frames and files
+  double seconds = 0;                             ///< processor time of computing, without frames and files [s]
 };
 
 /// Callbacks during a run; each may be empty. A FileError thrown by one ends the run properly.

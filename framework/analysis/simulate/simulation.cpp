@@ -47,14 +47,15 @@ void RowFigures::see() {
 
 namespace {
 
-/// Energy that serves as the scale: the largest stored so far, plus all energy that came in or was lost.
+/// Energy in play [J], the scale of errors: the energy stored, plus all energy that was supplied or lost.
 double in_play(const Energies& e, const Energies& first) {
   return std::abs(e.kinetic) + std::abs(e.gravity - first.gravity) + e.springs + e.contacts + e.strain + std::abs(e.lost) +
          std::abs(e.input);
 }
 
-/// Error that rounding may cause in the energy balance of a mechanism that hardly moves: positions accurate to a part of its length and of
-/// their distance from the world's origin, angles to that part, under weights and forces, and speeds to the former over the run.
+/// Error that rounding may cause in the energy balance of a mechanism that hardly moves [J]. Assumes positions accurate to a `part` of the
+/// mechanism's length and to `of_distance` of their distance from the world's origin, angles to `part`, and speeds to `part` of the length
+/// over the run.
 double rounding_energy(const System& system, const State& state, const Equations& eq, double until) {
   constexpr double part = 1e-12, of_distance = 1e-13;
   const double place = part * system.length, speed = place / until;

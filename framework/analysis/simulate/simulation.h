@@ -39,10 +39,10 @@ class RowFigures {
   std::vector<std::pair<std::size_t, std::ptrdiff_t>> normal_;  ///< contact, column
 };
 
-/// What the outside may see as an event: one of the scene's has acted, a contact has begun or ended.
+/// Detects what a caller may see as an event: an event of the scene has acted, or a contact has begun or ended.
 class SeenEvents {
  public:
-  /// @returns whether there is more than when it looked last
+  /// @returns whether there was one since the last call
   bool look(const std::vector<Happening>&, const std::vector<Impact>&);
 
  private:
@@ -50,8 +50,8 @@ class SeenEvents {
   std::vector<std::size_t> open_;  ///< impacts that had not ended
 };
 
-/// A run in progress, which can be stopped at any time, inspected, given new values of the scene's own states, and continued. A single call
-/// of `advance` to the scene's end is what `simulate` does.
+/// A run in progress, which can be stopped at any time, inspected, given new values of the scene's own states, and continued. `simulate` is
+/// a single call of `advance` up to the end of the run.
 class Simulation {
  public:
   /// @pre all arguments except the listeners outlive it
@@ -60,22 +60,22 @@ class Simulation {
 
   /// Advances to time t, where a step ends, or to an earlier end of the run. @returns false once the run is over
   bool advance(double t);
-  /// The same, but no further than to the first step's end at which SeenEvents sees one. To go on from there is what `advance` does.
+  /// The same, but stops at the end of the first step in which SeenEvents detects an event; `advance` continues from there.
   bool advance_to_event(double t);
   const std::vector<Happening>& happenings() const { return integrator_.happenings(); }
   const std::vector<Impact>& impacts() const { return integrator_.impacts(); }
-  /// From which another Simulation of the same model goes on as this one does.
+  /// The state from which another Simulation of the same model continues exactly as this one.
   SavedState saved() const;
   double time() const { return integrator_.state().t; }
-  /// Sets an own state of the scene, by its index in System::states, from now on, as an event would.
+  /// Sets the present value of an own state of the scene, as an event would. @param state  index into System::states
   void set(int state, double value);
-  /// The values that trajectory.csv would have now, in the order of its header. @returns an empty list where they cannot be evaluated
+  /// The present row of trajectory.csv, in the order of its header. @returns an empty list if it cannot be evaluated
   std::vector<double> now();
   /// Ends the run here, with a last row. The object cannot be used afterwards.
   Run finish();
 
  private:
-  /// Adds the processor time of its life to the run's: between calls the caller may do other work, or call from another thread.
+  /// Adds the processor time of its lifetime to that of the run: between calls, the caller may do other work or change threads.
   class Computing {
    public:
     explicit Computing(double& seconds) : seconds_(seconds) { seconds_ -= processor_time(); }
@@ -108,7 +108,7 @@ class Simulation {
   const Listeners listeners_;
   Run run_;
   Clock outputs_, states_, frames_;
-  double seconds_ = -processor_time();  ///< of computing; while it computes, less the time of the clock
+  double seconds_ = -processor_time();  ///< processor time of computing; while computing, minus its start time [s]
   const State& start_;
   Integrator integrator_;
   State sampled_;

@@ -5,9 +5,9 @@
 
 namespace pintle {
 
-// An impact slows down from its onset: |δ̇| ≤ δ̇₀, and the damping force is at most χ times the elastic force. If a contact is compressed
-// at more than twice the onset rate, with damping above the elastic force, the law is outside the range in which it was fitted to a
-// restitution.
+// In an impact the rate falls from its onset, |δ̇| ≤ δ̇₀, and the damping force is at most χ times the elastic force. If a contact is
+// compressed at more than twice the onset rate, with more damping than elastic force, its law is outside the range in which it was fitted
+// to a restitution.
 void SlowContacts::see(const System& system, const Step& step, const Equations& eq) {
   constexpr double faster = 2, outweighs = 1;
   for (std::size_t c = 0; c < seen_.size(); ++c) {

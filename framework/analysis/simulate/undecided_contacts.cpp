@@ -25,9 +25,10 @@ UndecidedContacts::UndecidedContacts(const System& system) : system_(system) {
   before_ = now_;
 }
 
-// Of a time-stepping scheme, which gives both forces, by what they are; `struck` in the first step of a stay, which may be a bounce.
+// If a time-stepping scheme gives the forces, what the contact does follows from them; `see` sets `struck` in its first step, which may be
+// a bounce.
 UndecidedContacts::Doing UndecidedContacts::doing(std::size_t contact, const State& state) const {
-  constexpr double limit = 1e-9;  // of what holds at most: less below it is rounding
+  constexpr double limit = 1e-9;  // relative to the largest static friction: a smaller difference from it is rounding
   if (!(state.impact_rate[contact] > 0)) return Doing::open;
   const Coulomb* law = dry_law(system_, contact);
   const DryFriction& dry = state.friction[contact];
@@ -38,7 +39,7 @@ UndecidedContacts::Doing UndecidedContacts::doing(std::size_t contact, const Sta
   return dry.force < 0 ? Doing::slides_on : Doing::slides_back;
 }
 
-// The state with what each contact does in place of forces that are given.
+// The state, with given forces replaced by what each contact does.
 State UndecidedContacts::decided(const State& state) const {
   State out = state;
   for (std::size_t i = 0; i < rigid_.size(); ++i) {
@@ -73,8 +74,8 @@ void UndecidedContacts::see(const State& state) {
 
 namespace {
 
-// Directions of forces: each normal force with the friction that it brings where it slides, and what sticks. Of several that are one, as
-// where two corners meet, the first.
+// Columns of forces: each normal force with the friction that it causes while sliding, and each sticking force. Of equal columns, as where
+// two corners meet, only the first is kept.
 MatrixXd directions_of(const Equations& eq, const Closed& closed, std::vector<int>& contact) {
   constexpr double same = 1e-9;
   const auto columns = std::ssize(eq.sticking.of);
@@ -111,7 +112,7 @@ std::string listed(const System& system, const std::vector<int>& contacts) {
 
 }  // namespace
 
-// Forces that do nothing to the motion: W z = 0, which the normal force at a contact has a part in.
+// Looks for forces without effect on the motion, W z = 0, that include normal forces.
 void UndecidedContacts::look_for_shares(const State& state) {
   const auto closed_now = std::ranges::count_if(now_, [](Doing d) { return d != Doing::open && d != Doing::struck; });
   if (closed_now < 2) return;
@@ -134,8 +135,8 @@ void UndecidedContacts::look_for_shares(const State& state) {
             "stiffness instead of model: impact";
 }
 
-// A contact that slides and is pressed could as well open where it would without force; one that has just opened, or begins open though it
-// touches, could as well be pressed.
+// A sliding, pressed contact could also open if it would do so without force. A contact that has just opened, or touches at the start but
+// is open, could also be pressed.
 void UndecidedContacts::look_for_two_motions(const State& state) {
   for (std::size_t i = 0; i < rigid_.size() && two_motions_.empty(); ++i) {
     const std::size_t c = rigid_[i];
@@ -150,7 +151,7 @@ void UndecidedContacts::look_for_two_motions(const State& state) {
   }
 }
 
-/// @param direction  in which it slides; 0: it is open, and would slide as its slip says
+/// @param direction  of sliding; 0: the contact is open, and the direction is that of its slip
 bool UndecidedContacts::goes_both_ways(std::size_t c, const State& state, double direction) {
   constexpr double times = 10, little = 1e-6;
   const ContactPair& pair = system_.contacts[c];
@@ -163,7 +164,7 @@ bool UndecidedContacts::goes_both_ways(std::size_t c, const State& state, double
     if (gap.depth < -times * pair.slack || std::abs(gap.rate) > pair.slowest_impact || gap.material_slip == 0) return false;
     closed.friction[c].direction = std::copysign(1.0, gap.material_slip);
   }
-  // 1 N that presses, and its friction, would have to press the bodies together.
+  // A normal force of 1 N with its friction must accelerate the bodies towards each other.
   const Closed now = closed_contacts(system_, closed, *eq_);
   const auto i = std::ranges::find(now.contact, static_cast<int>(c)) - now.contact.begin();
   if (i == std::ssize(now.contact)) return false;

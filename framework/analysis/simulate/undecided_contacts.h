@@ -9,8 +9,9 @@
 
 namespace pintle {
 
-/// Where rigid bodies leave a question open: normal forces of which only sums follow from the motion, and a contact that may as well open
-/// as be pressed (Painlevé). Asked where contacts have changed what they do; the first of each is kept. Theory: docs/theory/impact.md.
+/// Warns where rigid bodies leave the forces undetermined: normal forces of which the motion determines only sums, and a contact that may
+/// either open or stay pressed (Painlevé). Checked whenever contacts change what they do; the first case of each kind is kept. Theory:
+/// docs/theory/impact.md.
 class UndecidedContacts {
  public:
   explicit UndecidedContacts(const System&);
@@ -29,7 +30,7 @@ class UndecidedContacts {
   const System& system_;
   std::vector<std::size_t> rigid_;   ///< contacts
   std::vector<Doing> now_, before_;  ///< of each of them
-  std::unique_ptr<Equations> eq_;    ///< from the first question on
+  std::unique_ptr<Equations> eq_;    ///< created at the first check
   Eigen::VectorXd dy_;
   std::string shares_, two_motions_;
 };

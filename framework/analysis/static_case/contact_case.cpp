@@ -57,7 +57,7 @@ ContactReport contact_report(const SceneStaticContact& scene, const ContactSurfa
   r.pressure = force.cwiseQuotient(rows.area);
   r.gap = gap;
   r.greatest_pressure = r.pressure.maxCoeff();
-  // On a circle, angles are counted from the middle of the contact, so that its range is contiguous: opposite to the force on a pin.
+  // On a circle, angles are taken near the middle of the contact (for a pin, opposite to the force), so that its range is contiguous.
   const Vector2d towards = first.curve.radius < 0 ? r.force : Vector2d(-r.force);
   const double middle = r.straight || r.force.norm() == 0 ? 0 : std::atan2(towards.y(), towards.x());
   r.along = rows.along;

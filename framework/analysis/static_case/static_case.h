@@ -25,12 +25,12 @@ struct StaticReport {
   StressField stress;
   std::vector<SupportReaction> reactions;
   std::vector<PortDisplacement> ports;
-  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, in the form of a reaction
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< resultant of all loads, as in SupportReaction [N, N, N m]
   double greatest_displacement = 0;                ///< [m]
-  Eigen::Vector2d displaced_at;
-  double greatest_stress = 0;  ///< von Mises [Pa]
-  Eigen::Vector2d stressed_at;
-  double seconds = 0;
+  Eigen::Vector2d displaced_at;                    ///< body axes [m]
+  double greatest_stress = 0;                      ///< von Mises [Pa]
+  Eigen::Vector2d stressed_at;                     ///< body axes [m]
+  double seconds = 0;                              ///< elapsed time of the solution [s]
 };
 
 /// @throws SceneError  no static case in the scene, no or too few supports, a load that does not fit
@@ -39,7 +39,7 @@ StaticReport solve_case(const Scene&, const ElasticBody&);
 /// Evaluates a solution, independently of how it was found.
 StaticReport report_of(const Scene&, const ElasticBody&, const std::vector<NamedSupport>&, const BodyLoad&, StaticSolution);
 
-/// At each point of the body's drawing: displacement, von Mises, principal stresses, stress components. What static.vtu holds.
+/// At each point of the body's drawing: displacement, von Mises, principal stresses, stress components. The fields of static.vtu.
 std::vector<Field> static_fields(const BodyDrawing&, const StaticReport&);
 std::string points_csv(const StaticReport&);
 /// @pre the body is of line elements

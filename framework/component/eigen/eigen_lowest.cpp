@@ -28,7 +28,7 @@ constexpr Index small = 400;          // up to this size solved densely
 constexpr Index dense_limit = 4000;   // up to this size solved densely if a quarter of all pairs is requested
 constexpr double share = 1e-10;       // shift relative to ΣK_ii/ΣM_ii
 constexpr double dense_share = 1e-6;  // the same if all pairs are computed
-constexpr double cluster = 1e-6;      // a relative gap below which no count is attempted
+constexpr double cluster = 1e-6;      // relative gap; in smaller gaps no count is attempted
 
 void validate(const Sparse& K, const Sparse& M, const EigenOptions& o) {
   if (K.rows() != K.cols() || M.rows() != M.cols() || K.rows() != M.rows()) {

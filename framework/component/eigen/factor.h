@@ -21,7 +21,7 @@ struct Supernodes {
 
 /// A = LLᵀ of a symmetric positive definite sparse matrix, by CHOLMOD: fill-reducing order, supernodes (without GPL parts: columns), all
 /// right-hand sides at once. The order is kept, so that for another matrix of the same pattern only the numbers are recomputed. Order: AMD,
-/// or nested dissection where AMD gives much fill (benchmarks/modes.cpp). Not for several threads: solving uses a permanent workspace.
+/// or nested dissection where AMD gives much fill (benchmarks/modes.cpp). Not thread-safe: solving uses a permanent workspace.
 class Factor {
  public:
   Factor();
@@ -55,7 +55,7 @@ class Factor {
 /// Number of negative eigenvalues of a symmetric sparse matrix: the signs of the pivots of its LDLᵀ (Sylvester; Haynsworth's additivity
 /// over supernodes, pivoting inside each). Both triangles may be stored; the lower is read. The cost is that of a Cholesky factorisation; L
 /// is not kept.
-/// @throws std::runtime_error  a supernode is singular to rounding: the matrix, or a part eliminated on the way, has an eigenvalue at zero.
+/// @throws std::runtime_error  a supernode is singular to rounding: the matrix, or a part eliminated first, has an eigenvalue at zero.
 /// Shift it slightly.
 int negative_eigenvalues(const Eigen::SparseMatrix<double>& A);
 /// The same, using the order of a factor of a matrix with A's pattern, which saves computing one.

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double nothing = 1e-13;   // relative to a vector: a remainder below this is rounding
-constexpr double cancelled = 1e-4;  // relative to a squared length: subtract once more
+constexpr double cancelled = 1e-4;  // relative to a squared length: below this, subtract once more
 constexpr double even = 1e-2;       // relative to a length: one Gram matrix makes such a block orthonormal to 1e-12
 constexpr double thin = 1e-6;       // relative to a squared length: a direction that a Gram matrix resolves
 
@@ -84,7 +84,7 @@ MatrixXd Subspace::absorb(MatrixXd& Z) {
   E.bottomRows(used_ - before) = U * V.transpose();
   if (rest == 0) return E;
 
-  // A Gram matrix is inaccurate for directions this much shorter than the longest: these are repeated alone.
+  // A Gram matrix is inaccurate for directions this much shorter than the longest: these are orthonormalised again, separately.
   const MatrixXd W = gram.vectors.leftCols(rest);
   MatrixXd left = MatrixXd::Zero(Z.rows(), rest);
   add(1, Z, W, left);
@@ -134,7 +134,7 @@ void Subspace::step() {
   coupled_ = start;
 }
 
-// From T⁻¹: with rigid motions the wanted values are small in T and would be lost in its rounding.
+// Uses T⁻¹: if there are rigid motions, the wanted values are small in T and would be lost in its rounding.
 void Subspace::project() {
   const MatrixXd T = T_.topLeftCorner(old_, old_);
   const Eigen::LLT<MatrixXd> factor(T);

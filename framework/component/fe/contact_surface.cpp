@@ -227,7 +227,7 @@ ContactRows contact_rows(const FeModel& first_body, const ContactSurface& first,
       whole[r] += std::abs(first.sides[i].to - first.sides[i].from) / 2 * length_per_place(first.curve) * first.thickness;
   }
 
-  // Hat functions with hardly anything opposite are left out.
+  // Hat functions with almost no opposite surface are left out.
   std::vector<int> kept(along.size(), -1);
   int count = 0;
   for (std::size_t r = 0; r < along.size(); ++r)

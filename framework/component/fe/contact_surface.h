@@ -46,7 +46,7 @@ struct ContactRows {
   Sparse first, second;     ///< rows × N of each body
 };
 /// @param shift  position of the first body's origin in the second's axes, which are parallel [m]
-/// @throws std::invalid_argument  the surfaces face each other nowhere
+/// @throws std::invalid_argument  the surfaces do not face each other anywhere
 ContactRows contact_rows(const FeModel& first_body, const ContactSurface& first, const FeModel& second_body, const ContactSurface& second,
                          const Eigen::Vector2d& shift);
 

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Smallest ratio of the extents of a rim, as seen from its centre, that still determines a rotation.
+// Smallest ratio of a rim's radius of gyration to its reach from the port that still determines a rotation.
 constexpr double degenerate = 1e-9;
 
 template <class... Parts>
@@ -79,7 +79,7 @@ Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const 
   return C;
 }
 
-// Treatment of a rim's nodal freedoms.
+// A rim's nodal freedoms and how they are coupled.
 struct Rim {
   std::vector<int> freedoms;   // nodal, of the rim, [u_x u_y] node by node
   std::array<int, 3> given{};  // average: indices in `freedoms` of those determined by the others and the port

@@ -101,7 +101,7 @@ std::string free_motions(const Eigen::MatrixX3d& held, const Vector2d& middle, d
   const Vector3d least = eigen.eigenvalues() / eigen.eigenvalues()[2];
   if (least[0] > held_rank * held_rank) return "";
   if (least[1] > held_rank * held_rank) return name_of(eigen.eigenvectors().col(0), middle, size);
-  // Two motions are left: a translation and a rotation, unless it is the rotation that is restrained.
+  // Two motions are left: a translation and a rotation, unless the rotation is restrained.
   const Vector3d h = eigen.eigenvectors().col(2);
   if (h.head<2>().norm() < 1e-6) return "to move along x and to move along y";
   const Vector3d slide = Vector3d(-h[1], h[0], 0).normalized();
@@ -168,7 +168,7 @@ Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
                            ") in ", name, "; use beams instead of hinged bars, or more bars");
 }
 
-// Factors A, or reports what moves.
+// Factors A, or throws an error that names the motion.
 Factor factored(const FeModel& model, Sparse A, const std::vector<int>& free) {
   const double largest = A.diagonal().maxCoeff();
   const VectorXd scale = A.diagonal().cwiseMax(largest * std::numeric_limits<double>::epsilon());
@@ -252,7 +252,7 @@ StaticSolution solve_static(const FeModel& model, const Sparse& K, const Support
   VectorXd f = independent_load;
   if (!free.empty()) {
     const Factor factor = factored(model, restricted(A, free), free);
-    // Refined at most twice: the first refinement reduces the error to rounding, the second shows this.
+    // Refined at most twice: the first refinement reduces the error to rounding, and the second verifies it.
     VectorXd rest = picked(independent_load, free);
     const double start = rest.norm();
     double before = std::numeric_limits<double>::infinity();

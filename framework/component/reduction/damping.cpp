@@ -20,7 +20,7 @@ Rayleigh rayleigh(double omega_1, double zeta_1, double omega_2, double zeta_2) 
     if (!(omega > 0) || !std::isfinite(omega)) reject_damping("frequency", omega, "must be positive (rad/s)");
   for (const double zeta : {zeta_1, zeta_2})
     if (!(zeta >= 0) || !std::isfinite(zeta)) reject_damping("ratio", zeta, "must not be negative");
-  // If they are closer than this, the coefficients are determined by rounding alone.
+  // If they are closer than this, only rounding determines the coefficients.
   if (std::abs(omega_2 - omega_1) <= 1e-9 * omega_1)
     reject_damping("second frequency", omega_2, "must differ from the first; choose two distinct modes");
   const double spread = (omega_2 - omega_1) * (omega_2 + omega_1);

@@ -9,8 +9,8 @@
 namespace pintle {
 namespace {
 
-/// A component that reaches half of the largest is identified reliably despite rounding, unless it is at the threshold; the largest itself
-/// may have equals of opposite sign on symmetric bodies.
+/// The first component that reaches half of the largest is not changed by rounding, unless it is at the threshold; the largest itself may
+/// have equals of opposite sign on symmetric bodies.
 void fix_signs(ModalModel& model) {
   for (Eigen::Index k = 0; k < model.shapes.cols(); ++k) {
     const auto shape = model.shapes.col(k);

@@ -12,12 +12,12 @@ namespace pintle {
 
 namespace {
 
-// @param in_time  its variable may stand there
+// @param in_time  the variable t is allowed there
 [[noreturn]] void unknown(const std::string& name, const Vocabulary& vocabulary, bool in_time) {
   if (is_function(name)) throw ExpressionError("the function " + name + " needs parentheses");
   if (const std::string_view remedy = instead_of(name); !remedy.empty())
     throw ExpressionError("it contains " + name + ": " + std::string(remedy));
-  std::vector<std::string> known{"pi"}, all;  // names to list in messages; and also units and signals
+  std::vector<std::string> known{"pi"}, all;  // names that messages list; `all` also has units and signals
   if (in_time) known.insert(known.begin(), std::string(vocabulary.variable));
   for (const auto& [parameter, value] : vocabulary.parameters) known.push_back(parameter);
   if (vocabulary.signals)
@@ -39,7 +39,7 @@ constexpr std::string_view set_by_an_event =
 
 int build(const std::vector<FormulaStep>& steps, const Vocabulary& known, Formula& formula);
 
-// The expression that a name stands for, as a part of the formula.
+// Adds the expression that a name stands for to the formula; returns its last term.
 int part_of(const Word& word, const std::string& stands_for, const Vocabulary& known, Formula& formula) {
   constexpr int most_within = 30;
   Vocabulary within = known;
@@ -49,7 +49,7 @@ int part_of(const Word& word, const std::string& stands_for, const Vocabulary& k
   return build(parse(words), within, formula);
 }
 
-// The text with such names replaced by their expressions, so that it can be read where the names are unknown.
+// The text with names that stand for expressions replaced by these, so that it can be read where the names are unknown.
 std::string written_out(std::string_view text, const std::vector<Word>& words, const Vocabulary& known) {
   std::string out;
   const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
@@ -164,7 +164,7 @@ bool contains_time(const std::vector<Word>& words) {
   return std::ranges::any_of(words, [](const Word& w) { return w.text == "t"; });
 }
 
-// In a value that cannot change in time.
+// Rejects unknown names in a value that cannot change in time.
 void must_know(const std::vector<Word>& words, const Vocabulary& known) {
   for (const Word& word : words) {
     const std::string& name = word.text;

@@ -12,14 +12,14 @@ namespace pintle {
 /// An expression that cannot be read; the message says what is wrong and what to write instead.
 struct ExpressionError : std::runtime_error {
   explicit ExpressionError(const std::string& what, std::size_t character = 0) : std::runtime_error(what), at(character) {}
-  std::size_t at;  ///< the character of the text that is wrong, from 1; 0: the whole text
+  std::size_t at;  ///< position of the wrong character, from 1; 0: the whole text
 };
 
 /// A number with its dimension; SI.
 struct Quantity {
   double value = 0;
   Dimension dimension = {};
-  bool varies = false;  ///< of a parameter that an event sets: this is what it starts with
+  bool varies = false;  ///< a parameter that an event sets; `value` is its initial value
 };
 /// As an expression, to the last bit: "(0.1 m)".
 std::string exact_text(double value, const Dimension&);

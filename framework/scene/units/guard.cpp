@@ -76,7 +76,7 @@ bool same(const Program& a, const Program& b) {
   return std::ranges::equal(a.code, b.code, [](const auto& x, const auto& y) { return x.op == y.op && x.value == y.value; });
 }
 
-// a is A − low, b is high − A, and high is not above low.
+// Whether a is A − low and b is high − A, with high not above low.
 bool contradict(const Comparison& a, const Comparison& b) {
   const Program &of_a = a.difference, &of_b = b.difference;
   const std::size_t n = of_a.code.size();

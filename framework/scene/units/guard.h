@@ -17,8 +17,8 @@ struct Comparison {
 /// @throws ExpressionError  it is not such a condition
 std::vector<Comparison> comparisons(const Program&);
 
-/// What is known of a condition for any signals, at times from 0 to `until`: from bounds of each comparison, and from pairs that require a
-/// quantity to be both above and below.
+/// What is known of a condition for any values of signals and times from 0 to `until`: from bounds of each comparison, and from pairs that
+/// require a quantity to be both above one value and below another.
 enum class Known { open, never, always };
 Known known_of(const std::vector<Comparison>&, double until);
 

@@ -15,8 +15,8 @@ constexpr int most_looks = 40'000;           // evaluations for one law
 
 bool bounded(const Range& r) { return std::isfinite(r.lo) && std::isfinite(r.hi); }
 
-/// Over the last 10⁻⁶, 10⁻⁹ and 10⁻¹² of the run before t, a pole |t − t₀|^−p grows 10^3p times as much in the second step as in the first,
-/// whatever is added to it; a logarithm grows equally in both.
+/// Compares the law at 10⁻⁶, 10⁻⁹ and 10⁻¹² of the run before and after t. From each to the next, a pole |t − t₀|^−p grows 10^3p times as
+/// much as before, whatever is added to it; a logarithm grows equally.
 bool diverges(const TimeLaw& law, double t, double until, double Jet::*part) {
   constexpr double slowest = 10;  // p > 1/3
   for (const double side : {-1.0, 1.0}) {

@@ -23,8 +23,8 @@ struct SignalFormula {
   std::size_t inputs = 0;  ///< how many it has
 };
 
-/// Behaviour of a table outside its samples: it holds the end value, requested or not; or has no value, which ends the run and names the
-/// law.
+/// Behaviour of a table outside its samples: it holds the end value, because the scene requests it or by default; or it has no value, which
+/// ends the run with a message that names the law.
 enum class Outside { holds, holds_unasked, refused };
 
 /// A table as a function of a formula: the derivatives of f(x(in)) are f′ ∂x/∂in.

@@ -35,7 +35,7 @@ class SignalWordsOf {
     words_.try_emplace(name, SignalWord{what, d, std::move(a), std::move(b), index});
   }
   void column(const std::string& name, const Dimension& d) { put(name, What::column, d); }
-  // As the table's header calls it, too: "pin.fx on crank".
+  // Also under its column heading: "pin.fx on crank".
   void wrench(const std::string& name, bool force, bool couple, std::initializer_list<const PointRef*> on) {
     const auto part = [&](const char* of, const Dimension& d) {
       column(name + of, d);
@@ -48,13 +48,13 @@ class SignalWordsOf {
     put(name + ".power", What::work_rate, product(dimension::force, dimension::speed));
     words_.find(name + ".power")->second.text = std::move(text);
   }
-  // A motion of b less that of a.
+  // Motion of b minus that of a.
   static std::string relative(const PointRef& a, const PointRef& b, const char* motion) {
     const auto of = [&](const PointRef& p) { return p.body + (p.point.empty() ? "" : "." + p.point) + motion; };
     if (a.body == "ground") return of(b);
     return b.body == "ground" ? "(-" + of(a) + ")" : "(" + of(b) + " - " + of(a) + ")";
   }
-  // Of a force on b and its opposite on a.
+  // Power of a force on b and its opposite on a.
   void power_of_force(const std::string& name, const PointRef& a, const PointRef& b) {
     power(name, name + ".fx*" + relative(a, b, ".vx") + " + " + name + ".fy*" + relative(a, b, ".vy"));
   }
@@ -105,7 +105,7 @@ class SignalWordsOf {
       for (const char* stress : {".stress", ".sx", ".sy", ".txy", ".von Mises"}) column(name + stress, dimension::stress);
     }
   }
-  // How many there are the build alone knows.
+  // Only `build` knows the number of modes; 40 more than the scene's count are accepted.
   void modes(const SceneBody& b) {
     const int most = 40 + b.elastic->modes->keep.count.value_or(0);
     for (int i = 1; i <= most; ++i) column(b.name + ".mode " + std::to_string(i), {1, 0.5, 0, 0});
@@ -132,7 +132,7 @@ class SignalWordsOf {
     for (const char* force : {".load", ".friction"}) column(j.name + force, dimension::force);
   }
   void add(const SceneDriver& d) {
-    const bool on_b = d.b.body != "ground";  // what is written is of the second body, if that can move
+    const bool on_b = d.b.body != "ground";  // results give the effort on the second body, unless it is the ground
     if (d.kind == DriverKind::angle) {
       twist(d.name, d.a, d.b), wrench(d.name, false, true, {&d.a, &d.b});
       return power(d.name, (on_b ? "" : "-") + d.name + ".torque*" + d.name + ".speed");
@@ -165,7 +165,7 @@ class SignalWordsOf {
     if (force || !torque) return power_of_force(l.name, *a, *b);
     if (!turns_apart(*a) && !turns_apart(*b)) power(l.name, l.name + ".torque*" + relative({a->body, "", {}}, {b->body, "", {}}, ".speed"));
   }
-  // Of a force the ground and its point.
+  // For a force: the ground and its point.
   static std::pair<const PointRef*, const PointRef*> ends_of(const SceneLoad& l, const PointRef& ground) {
     if (const auto* force = std::get_if<SceneForce>(&l.what)) return {&ground, &force->at};
     if (const auto* torque = std::get_if<SceneTorque>(&l.what)) return {&torque->a, &torque->b};
@@ -174,7 +174,7 @@ class SignalWordsOf {
     const auto& maxwell = std::get<SceneMaxwell>(l.what);
     return {&maxwell.a, &maxwell.b};
   }
-  // Its points turn otherwise than its axes.
+  // On a flexible body, a point may rotate differently from the axes.
   bool turns_apart(const PointRef& on) const {
     const auto body = std::ranges::find(scene_.bodies, on.body, &SceneBody::name);
     return body != scene_.bodies.end() && body->elastic && body->elastic->modes && !on.point.empty();

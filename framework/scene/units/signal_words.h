@@ -30,7 +30,7 @@ struct SignalWord {
     state,           ///< `index` among the scene's own states
     output,          ///< likewise
     column,          ///< of trajectory.csv: quantities that depend on the accelerations
-    work_rate,       ///< power that it puts into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
+    work_rate,  ///< power of a force or driver into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
   };
   What what;
   Dimension dimension;
@@ -39,10 +39,10 @@ struct SignalWord {
   std::string text = {};
 };
 
-/// All signals of a scene as read so far: more are known as more of it is read.
+/// All signals that are known from the parts of the scene read so far.
 std::map<std::string, SignalWord, std::less<>> signal_words(const Scene&);
 
-/// Where they are used: expressions that act on the motion may contain no outputs and nothing that depends on the accelerations.
+/// Use of signals. Expressions that act on the motion may contain no outputs and nothing that depends on the accelerations.
 enum class SignalUse { acts, written };
 SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>&, SignalUse);
 

@@ -53,7 +53,7 @@ Plain plain(std::string_view text) {
   return out;
 }
 
-// An open parenthesis, or the whole expression.
+// A level of parentheses, or the whole expression.
 struct Level {
   std::size_t opened = 0;  // where
   bool divided = false;    // its current product
@@ -167,7 +167,7 @@ bool Speller::signal() {
   return false;
 }
 
-/// The names behind the owner's dot that have no further dot.
+/// The parts after the owner's dot, of names without a further dot.
 std::vector<std::string> columns_of(const std::vector<std::string>& signals, const std::string& owner) {
   std::vector<std::string> out;
   for (const std::string& signal : signals)
@@ -175,8 +175,8 @@ std::vector<std::string> columns_of(const std::vector<std::string>& signals, con
   return out;
 }
 
-/// Suggests a column of the owner instead of one that it lacks. If only joints with clearance have it and this joint has none, the hint says so:
-/// the clearance may have been deleted.
+/// Suggests a column of the owner instead of one that it lacks. If only joints with clearance have that column and this joint has no
+/// clearance, the hint says so, since the clearance may have been deleted.
 /// @param columns  columns that this expression may name   @param joint  the owner has an angle and a reaction
 std::string hint_of(const std::string& owner, const std::string& column, const std::vector<std::string>& columns, bool joint) {
   static const std::vector<std::string> worn{"normal", "depth", "ex", "ey", "rate", "friction", "sliding"};
@@ -228,8 +228,8 @@ void Speller::name() {
   take(calls ? Kind::function : Kind::name, length);
 }
 
-// A space before a unit multiplies, left to right. After a division this could be surprising (N/m s, 10 deg/2 deg), so only the plain
-// fraction 1/2 mm may do it there.
+// A space before a unit multiplies, left to right. After a division this could be misread (N/m s, 10 deg/2 deg), so there only the plain
+// fraction 1/2 mm is allowed.
 void Speller::multiply_by_unit(std::string_view unit) {
   const std::size_t n = words_.size();
   const bool fraction = n >= 3 && words_[n - 1].kind == Kind::number && words_[n - 2].text == "/" && words_[n - 3].kind == Kind::number &&

@@ -15,8 +15,8 @@ using Parameters = std::map<std::string, Quantity, std::less<>>;
 /// A signal of the motion that expressions may name.
 struct SignalName {
   Dimension dimension;
-  std::string refused = {};     ///< why it may not stand here; empty: it may
-  std::string stands_for = {};  ///< an expression of others that is meant by it; empty: a number of its own
+  std::string refused = {};     ///< why it is not allowed here; empty: it is allowed
+  std::string stands_for = {};  ///< the expression that replaces it; empty: it has a value of its own
 };
 using SignalNames = std::map<std::string, SignalName, std::less<>>;
 
@@ -26,7 +26,7 @@ struct Vocabulary {
   std::span<const Unit> more_units = {};          ///< besides units()
   const SignalNames* signals = nullptr;           ///< nullptr: the value cannot change with the motion
   std::string_view variable = "t";                ///< the name of its variable
-  int within = 0;                                 ///< of so many expressions that stand for names, one in the other
+  int within = 0;                                 ///< nesting depth of expressions that stand for names
   const Unit* unit(std::string_view name) const;  ///< nullptr if there is none
 };
 

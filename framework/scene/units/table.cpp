@@ -38,7 +38,7 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-// Interval [i, i + 1] that holds t; t strictly inside the samples.
+// Interval [i, i + 1] that contains `at`; the outer ones also for values beyond the samples.
 std::size_t interval(const std::vector<double>& t, double at) {
   const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, at);
   return static_cast<std::size_t>(above - t.begin()) - 1;

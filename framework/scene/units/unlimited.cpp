@@ -14,12 +14,12 @@ bool moves(const Program& of, const std::vector<bool>& fixed) {
                              [&](const Program::Instruction& i) { return i.op == Op::input && !fixed[static_cast<std::size_t>(i.value)]; });
 }
 
-// Of the operand that ends with instruction `last`.
+// The operand that ends with instruction `last`, without its limits.
 Program operand_without_limits(const Program& of, std::size_t last, const std::vector<bool>& fixed, Limits which) {
   const Op op = of.code[last].op;
   if (which == Limits::of_value && op != Op::min && op != Op::max) return of;
   std::vector<Program> operands;
-  std::size_t end = last;  // of those not yet taken, the last first
+  std::size_t end = last;  // of the operands not yet taken, which are taken from the last on
   for (int k = operand_count(op); k > 0; --k) {
     const std::size_t begin = begin_of(of, end - 1);
     operands.push_back(operand_without_limits(part(of, begin, end), end - begin - 1, fixed, which));

@@ -27,7 +27,7 @@ const Yaml* item_of(const Yaml& map, std::string_view key) {
 
 bool repeats(const Yaml& entry) { return entry.kind == Yaml::Kind::map && item_of(entry, "repeat"); }
 
-/// By its name, or as the default frame of a joint that names none.
+/// Whether the ground is named, or may be the default frame of a joint.
 bool says_ground(const Yaml& yaml) {
   const bool frame = yaml.key == "screw" || yaml.key == "cam" || yaml.key == "differential";
   return frame || yaml.text == "ground" || std::ranges::any_of(yaml.items, says_ground);

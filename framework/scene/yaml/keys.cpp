@@ -19,7 +19,7 @@ std::vector<std::string> names(const KeyTable& table) {
   return out;
 }
 
-/// Whether the keys of a whole file are of something else: none is known, or nearly. Then they are not shown.
+/// Whether no key of a file is known or nearly so: it is another kind of file, and its keys are not shown in messages.
 bool is_foreign(std::span<const Node> entries, std::span<const std::string> known) {
   const auto like_known = [&](const Node& entry) {
     return std::ranges::find(known, entry.name()) != known.end() || !nearest(entry.name(), known).empty();

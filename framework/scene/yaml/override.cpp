@@ -49,8 +49,8 @@ Yaml* find(Yaml& map, const std::string& key) {
   return found == map.items.end() ? nullptr : &*found;
 }
 
-/// Entries of these groups have names chosen by the scene's author: an unknown one is a typing error, not a new entry. Returns what the
-/// entry is called in a message, or null.
+/// Entries of these groups have names chosen by the scene's author: an unknown one is a typing error, not a new entry. @returns what the
+/// entry is called in a message, or nullptr.
 const char* named_entry(const std::string& group) {
   constexpr std::array<std::array<const char*, 2>, 8> named{{{"bodies", "body"},
                                                              {"instances", "instance"},
@@ -81,14 +81,14 @@ std::optional<std::size_t> whole(const std::string& s) {
   return static_cast<std::size_t>(std::stoul(s));
 }
 
-/// Whether these steps lead on from an entry.
+/// Whether the path of these steps exists below an entry.
 bool leads_on(const Yaml& entry, std::span<const std::string> steps) {
   if (steps.empty()) return true;
   const auto next = std::ranges::find(entry.items, steps[0], &Yaml::key);
   return entry.kind == Yaml::Kind::map && next != entry.items.end() && leads_on(*next, steps.subspan(1));
 }
 
-/// Adds the paths of all entries below `at` that end in these steps, or of those that begin with the first of them and lead nowhere yet.
+/// Adds all paths below `at` that end in these steps; if not `whole`, those that exist at least up to the first of the steps.
 void add_ending_so(const Yaml& at, const std::string& path, std::span<const std::string> steps, bool whole, std::vector<std::string>& out) {
   if (at.kind != Yaml::Kind::map) return;
   for (const Yaml& entry : at.items) {
@@ -100,7 +100,7 @@ void add_ending_so(const Yaml& at, const std::string& path, std::span<const std:
   }
 }
 
-/// " Did you mean "joints.pin.clearance"?" of "pin.clearance"; empty if nothing ends so.
+/// " Did you mean "joints.pin.clearance"?" for "pin.clearance"; empty if no path ends like this.
 std::string did_you_mean_below(const Yaml& scene, const std::vector<std::string>& steps) {
   std::vector<std::string> found;
   add_ending_so(scene, "", steps, true, found);
@@ -219,7 +219,7 @@ class Walk {
   std::vector<std::string> steps_;
 };
 
-/// Can the scalar be written unquoted in a flow list or map?
+/// Whether the scalar can be written without quotes in a flow list or map.
 bool plain(const std::string& s, bool inside) {
   if (s.empty() || s == "null" || s == "~" || s == "Null" || s == "NULL") return false;
   if (trimmed(s) != s || s.find_first_of("\n\r\t\"\\") != std::string::npos) return false;
@@ -281,7 +281,7 @@ Overrides apply_paths(Yaml& scene, const std::string& file, const Overrides& ove
 }
 
 namespace {
-/// Groups without entries that instances and repeats add to.
+/// Groups to which instances and repeats add no entries.
 bool is_as_written(std::string_view group) {
   static constexpr std::array as_written{"title", "gravity", "parameters", "run",        "static",   "output",
                                          "start", "ground",  "include",    "assemblies", "instances"};

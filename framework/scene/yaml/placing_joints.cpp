@@ -34,7 +34,7 @@ std::string substituted(const std::string& text, const std::string& name, const 
   return out;
 }
 
-/// Makes the curve of a cam begin where its drawing does: angles relative to the ground rotate with the instance, and its mirror image
+/// Rotates the curve of a cam with its drawing: angles relative to the ground rotate with the instance, and its mirror image
 /// turns the other way. A body used as reference is rotated and mirrored with it.
 void place_cam(const Spot& joint, const Placing& placing) {
   const std::vector<Spot> points = joint.at("cam").list("two points, or three: [camshaft, valve.P, frame.G]");
@@ -75,7 +75,7 @@ void mirror_joint(const Spot& joint) {
   if (joint.has("clearance") && joint.at("clearance").has("arc")) negate(joint.at("clearance").at("arc"), "middle", dimension::angle);
 }
 
-/// It runs round each pulley in the opposite direction.
+/// A mirrored belt runs round each pulley in the opposite direction.
 void mirror_belt(Spot force) {
   const std::vector<Spot> radii = force.at("radii").list("a radius for each of the pulleys");
   const bool crossed = force.has("crossed") && force.at("crossed").node.yes();
@@ -120,7 +120,7 @@ void mirror_driver(const Spot& driver) {
   if (!driver.has("angle") || !driver.has("law")) return;
   const Spot law = driver.at("law");
   if (says_present(law.node))
-    set_text(law, "2*present - (" + law.node.text("a law of time") + ")");  // present minus what is added
+    set_text(law, "2*present - (" + law.node.text("a law of time") + ")");  // `present` minus the part added to it
   else
     negate_law(law, "rad");
 }

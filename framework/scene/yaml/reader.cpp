@@ -33,7 +33,7 @@ Quantity overridden(const std::string& name, const std::string& text, const Quan
   }
 }
 
-// Names that events set, of the scene and of its assemblies, but those that an assembly has of its own.
+// Names set by events of the scene and its assemblies, except those that an assembly defines itself.
 void set_by_events(const Yaml& level, std::set<std::string>& names) {
   const auto item = [](const Yaml& of, std::string_view key) {
     const auto found = std::ranges::find(of.items, key, &Yaml::key);
@@ -81,7 +81,7 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
                                    : "the scene has no such parameter." + did_you_mean(name, all));
 }
 
-// A parameter that events set is a state without a rate for what may follow it, and no number for all else.
+// A parameter set by events is a state with rate 0 where a value may follow it; elsewhere it has no value.
 void make_parameters_states(const Source& source, Scene& scene) {
   for (const auto& [name, value] : scene.parameters) {
     const Quantity& q = source.parameters.find(name)->second;

@@ -30,7 +30,7 @@ Law read_event_law(const Node& node, const Dimension& expected, const SignalName
   }
 }
 
-// An output follows from what it is made of; a PID controller is one, of its states.
+// Rejects an output: it is computed, as that of a PID controller from its states.
 void refuse_output(const Node& node, const std::string& name, const Scene& scene) {
   const auto output = std::ranges::find(scene.outputs, name, &SceneOutput::name);
   if (output == scene.outputs.end()) return;
@@ -79,7 +79,7 @@ SceneDoing read_doing(const Node& node, const std::string& keys, const Scene& sc
   return out;
 }
 
-// For a constant condition, a constant function.
+// For a constant condition, a single constant function.
 std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
   if (condition.constant) {
     const double holds = condition.at(0).value;

@@ -19,8 +19,8 @@ void read_bodies(const Node& root, Scene&);  ///< ground and bodies; after mater
 void read_joints(const Node& root, Scene&);
 void read_contacts(const Node& root, Scene&);  ///< after bodies
 void read_drivers(const Node& root, const std::filesystem::path& folder, Scene&);
-void read_states(const Node& root, Scene&);                                           ///< but their rates; before forces and outputs
-void read_forces(const Node& root, Scene&);                                           ///< but their laws; after everything that has signals
+void read_states(const Node& root, Scene&);                                           ///< without rates; before forces and outputs
+void read_forces(const Node& root, Scene&);                                           ///< without laws; after everything that has signals
 void read_state_rates(const Node& root, Scene&);                                      ///< after forces
 void read_force_laws(const Node& root, const std::filesystem::path& folder, Scene&);  ///< after what states are made of
 void read_outputs(const Node& root, Scene&);                                          ///< after state rates
@@ -69,7 +69,7 @@ class ActingSignals {
  public:
   ActingSignals(const Node& root, const Scene& scene) : root_(root), scene_(scene) {}
   const SignalNames& names();
-  /// May the text name any? Cheaper than listing all signals of a large scene for "10 N".
+  /// Whether the text may name a signal; avoids listing all signals of a large scene for "10 N".
   bool may_be_in(const std::string& text) const;
 
  private:
@@ -83,7 +83,7 @@ Law read_load_law(const Node&, std::string_view keys, const Dimension&, const st
 
 /// The rate of a state: an expression of the dimension, or a table.
 Law read_rate(const Node&, const Dimension&, const Scene&, const SignalNames&);
-/// A name that an expression can tell from all others. @param what  "a state"
+/// Checks that a name differs from all other names in expressions. @param what  "a state"
 void check_signal_name(const Node&, const Scene&, const char* what);
 
 /// The description of a body of elements; its points are read already.
@@ -105,11 +105,10 @@ void check_own_point(const Node&, const std::string& name, const SceneBody&);
 bool read_terms(const Node& list, SceneJoint&);
 /// The data of a coupling besides its points.
 void read_coupling(const Node& joint, const JointWord&, SceneJoint&);
-/// An expression that adds to `present`, the value of a length or angle at the start; and the law of the added part.
+/// Whether an expression adds to `present`, the value of a length or angle at the start.
 bool says_present(const Node&);
-/// @param until  as for read_time_law
+/// The law of the part added to `present`. @param until  as for read_time_law
 Law read_after_present(const Node&, const Dimension&, double until = 0);
-/// For a law from 0 to `until`.
 void must_be_finite(const Node&, const Law&, Smoothness, double until);
 /// Name of a point that the body has.
 std::string read_own_point(const Node&, const SceneBody&);
@@ -131,8 +130,8 @@ void read_optional(const Node& group, std::string_view key, const Dimension&, Ru
 /// The scene as JSON that the reader converts back to the same scene.
 std::string filled_in(const Scene&, const Parameters&);
 
-/// The reference conditions of a body whose modes are chosen by the scene's motion and that gives none: through the two points farthest
-/// apart that joints hold, or at the only one if that is clamped; otherwise mean axes. @pre it has modes
+/// The default reference conditions of a body whose modes are chosen by the scene's motion: through the two points farthest apart that
+/// joints hold, or at the only such point if it is clamped; otherwise mean axes. @pre it has modes
 void choose_frame(SceneBody&, const Scene&);
 
 }  // namespace pintle

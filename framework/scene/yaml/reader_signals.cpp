@@ -70,7 +70,7 @@ std::string json_unit(const TableAxis& axis) {
   return json_quoted(axis.unit == 1 && si_unit(axis.law.dimension).empty() ? "1" : out.str());
 }
 
-// In a form that `filled_in` converts back to keys.
+// The table as text that `filled_in` converts back to keys.
 std::string signal_table_text(const Node& node, const std::vector<TableAxis>& axes, const char* interpolation, bool periodic,
                               Outside outside, double value_unit, const std::string& value_si) {
   const auto listed = [&](const auto& word) {
@@ -105,7 +105,7 @@ Outside read_outside(const Node& node, std::string_view keys, Outside otherwise)
   return node.at("outside").one_of(choices(keys, "outside")) == "hold" ? Outside::holds : Outside::refused;
 }
 
-// A table without `over`.
+// Checks a table without `over`.
 void must_be_of_time(const Node& node) {
   for (const char* key : {"over unit", "periodic", "outside"})
     if (node.has(key)) node.at(key).fail("is for a table over signals; add over: crank.angle, or leave it out");
@@ -184,7 +184,7 @@ Law read_signal_table(const Node& node, std::string_view keys, const Dimension& 
   return out;
 }
 
-// The values of a table are in its `value unit`.
+// An output from a table; its dimension is that of `value unit`.
 SceneOutput read_table_output(const Node& node, const SignalNames& names) {
   constexpr const char* keys = "outputs.*";
   check_keys(node, keys);
@@ -198,7 +198,7 @@ SceneOutput read_table_output(const Node& node, const SignalNames& names) {
   return {node.name(), read_signal_table(node, keys, d, node.source().folder, names), si_unit(d), node.place()};
 }
 
-// Does an output name another, directly or through other outputs?
+// Whether an output names another, directly or through other outputs.
 bool needs(const std::vector<Node>& outputs, const Node& one, const std::string& name, std::set<std::string>& seen) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   const auto names = [&](const std::string& text, const std::string& word) {
@@ -212,7 +212,7 @@ bool needs(const std::vector<Node>& outputs, const Node& one, const std::string&
          std::ranges::any_of(outputs, [&](const Node& next) { return names(text, next.name()) && needs(outputs, next, name, seen); });
 }
 
-// An output that names one that has not been read yet.
+// Reports an output that names one not read yet.
 [[noreturn]] void fail_of_order(const std::vector<Node>& outputs, const Node& node, const Node& named) {
   const std::string begun = "\"" + node.yaml().text + "\": ";
   std::set<std::string> seen;
@@ -247,7 +247,7 @@ void check_signal_name(const Node& node, const Scene& scene, const char* what) {
 const SignalNames& ActingSignals::names() {
   if (names_) return *names_;
   names_ = signal_names(signal_words(scene_), SignalUse::acts);
-  for (const SceneOutput& made : scene_.outputs) {  // of states, by name; the scene's outputs come later
+  for (const SceneOutput& made : scene_.outputs) {  // outputs of states such as PID controllers; the scene's own are read later
     SignalName& name = names_->find(made.name)->second;
     name.refused.clear();
     name.stands_for = made.law.text;
@@ -262,7 +262,7 @@ const SignalNames& ActingSignals::names() {
   return *names_;
 }
 
-// A letter after a dot, or a name without one.
+// A signal has a letter after a dot; names of states and outputs have no dot.
 bool ActingSignals::may_be_in(const std::string& text) const {
   if (!scene_.states.empty() || !scene_.outputs.empty() || root_.has("outputs")) return true;
   for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot + 1))

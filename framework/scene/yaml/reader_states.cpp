@@ -1,4 +1,4 @@
-// States of the scene's own, and what is made of states by name: a lag, a PID controller, a limited rate.
+// The scene's own states, and elements made of states: a lag, a PID controller, a rate limiter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,19 +30,19 @@ Quantity quantity_of(const Node& node, const std::string& remedy) {
   }
 }
 
-// What a state of a kind is made of, in words of expressions.
+// A state of an element, with its rate as an expression.
 struct StateOfKind {
   std::string name, rate;
 };
 struct MadeOfStates {
   std::vector<StateOfKind> states;
-  std::string output = {};  // what its name stands for; empty: its state
-  double size = 0;          // of its values, where that is known
+  std::string output = {};  // expression that its name stands for; empty: the state
+  double size = 0;          // magnitude of its values; 0: unknown
 };
 
 std::string followed(const Node& node, const char* kind) { return "(" + node.at(kind).expression("an expression such as arm.angle") + ")"; }
 
-// x' = (e - x)/T; with a lead L it gives x + L x', of which e is a part.
+// First-order lag: x' = (e - x)/T; with a lead L, the output is x + L x' = L/T e + (1 - L/T) x.
 MadeOfStates lag_of(const Node& node) {
   need_key(node, "time", "20 ms");
   const std::string e = followed(node, "lag");
@@ -54,7 +54,7 @@ MadeOfStates lag_of(const Node& node) {
   return {{{x, "(" + e + " - " + x + ")/" + T}}, exact_text(part, {}) + "*" + e + " + " + exact_text(1 - part, {}) + "*" + x};
 }
 
-// r' = (e - r)/T, but no faster than it may.
+// r' = (e - r)/T, limited to the range [least, greatest].
 MadeOfStates limited_rate_of(const Node& node, const Dimension& d) {
   need_key(node, "most", "3 rad/s");
   need_key(node, "time", "1 ms");
@@ -88,7 +88,7 @@ Gains gains_of(const Node& node) {
   return out;
 }
 
-// The integral goes back to what the limits let through within this time.
+// Tracking time of the anti-windup [s]; by default the gain of the error over that of its integral.
 double tracking_of(const Node& node, const Gains& k) {
   if (node.has("tracking")) return node.at("tracking").quantity(dimension::time, rule::positive);
   const double time = k.proportional.value / k.integral.value;
@@ -106,7 +106,8 @@ std::optional<std::array<double, 2>> limits_of(const Node& node, const Dimension
   return std::array{least, greatest};
 }
 
-// v = P e + I + D ė, I' = K e, ė by a filter: x' = (D/T e - x)/T, D ė = D/T e - x. Beyond its limits the integral is led back, I' = K e + (u - v)/T.
+// v = P e + I + D ė with I' = K e and ė filtered: x' = (D/T e - x)/T, D ė = D/T e - x. The output u is v within the limits; anti-windup by
+// back-calculation with the tracking time Tt: I' = K e + (u - v)/Tt.
 MadeOfStates pid_of(const Node& node, const Dimension& d) {
   const Gains k = gains_of(node);
   const std::string e = followed(node, "pid");
@@ -147,7 +148,7 @@ MadeOfStates pid_of(const Node& node, const Dimension& d) {
   return out;
 }
 
-// Of an expression that names what is known by now: springs and later states are not.
+// Dimension of an expression, if all its names are known by now; springs and later states are not.
 std::optional<Dimension> dimension_if_known(const Node& node, const std::string& text, const Scene& scene) {
   try {
     return read_measured_law(text, node.source().parameters, signal_names(signal_words(scene), SignalUse::written)).dimension;
@@ -156,7 +157,7 @@ std::optional<Dimension> dimension_if_known(const Node& node, const std::string&
   }
 }
 
-// Of a value of a state; a number without a unit says nothing.
+// Dimension of the value of a key; a number without a unit has none.
 Dimension dimension_at(const Node& node, const char* key) {
   if (!node.has(key)) return {};
   const Node value = node.at(key);
@@ -165,7 +166,7 @@ Dimension dimension_at(const Node& node, const char* key) {
       .dimension;
 }
 
-// A unit, or that of a value; what follows an expression has the expression's.
+// From the unit, or that of a value; otherwise from the expression that the state follows.
 Dimension dimension_of_state(const Node& node, const std::string& kind, const Scene& scene) {
   if (node.has("unit")) return quantity_of(node.at("unit"), "a unit such as rad s").dimension;
   const Dimension start = dimension_at(node, "start");
@@ -200,7 +201,7 @@ std::string hint_of_unit(const Node& node) {
   return node.has("unit") || node.has("start") || node.has("limits") ? "" : " (unit: says what " + node.name() + " is measured in)";
 }
 
-/// The value that says what a state is measured in.
+/// The value that gives the unit of a state.
 std::optional<Node> says_unit(const Node& node) {
   for (const char* key : {"unit", "start", "limits"})
     if (!bare(dimension_at(node, key))) return node.at(key).is_list() ? node.at(key).list(1, "")[0] : node.at(key);
@@ -212,7 +213,7 @@ std::optional<Node> says_unit(const Node& node) {
   node.fail(subject + " is " + describe(is) + "; expected " + describe(expected) + whose);
 }
 
-/// What each gain that is not 0 makes of the error e, with its place in the list.
+/// Dimension of the term of each gain that is not 0, and its index in the list.
 struct MadeByGain {
   std::size_t gain;
   Dimension dimension;
@@ -240,7 +241,7 @@ void blame_gains(const Node& node, const std::string& e, const Dimension& d, con
   fail_for_unit(gain, gain.shown() + " times " + of[wrong->gain], wrong->dimension, d, hint_of_unit(node));
 }
 
-/// Refuses the key whose value makes a state of a kind unreadable; returns where none is found.
+/// Reports the key whose value makes an element unreadable; returns if none is found.
 void blame_a_key(const Node& node, const std::string& kind, const Dimension& d, const SignalNames& names) {
   const Node followed_at = node.at(kind);
   const std::string e = followed_at.expression("an expression such as arm.angle");

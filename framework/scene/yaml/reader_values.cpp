@@ -98,12 +98,12 @@ std::filesystem::path table_file(const Node& node, const std::filesystem::path& 
     named.fail(rejected.what());
   }
   std::error_code error;
-  if (fs::exists(path, error)) return path;  // what else is wrong with it is said where it is read
+  if (fs::exists(path, error)) return path;  // other errors are reported where it is read
   std::vector<std::string> beside;
   const fs::path place = path.has_parent_path() ? path.parent_path() : ".";
   for (auto entry = fs::directory_iterator(place, error); !error && entry != fs::directory_iterator(); entry.increment(error))
     if (ending_of(entry->path()) == ending_of(path)) beside.push_back(entry->path().filename().string());
-  std::ranges::sort(beside);  // folders have no order
+  std::ranges::sort(beside);  // the order of directory entries is undefined
   const std::string near = nearest(path.filename().string(), beside);
   named.fail("\"" + file + "\": there is no such file; check the path" +
              (near.empty() ? "" : ". Did you mean \"" + (fs::path(file).parent_path() / near).string() + "\"?"));

@@ -98,7 +98,7 @@ SpelledOut spelled_out(const std::string& expression, const Source& source, int 
     } else {
       out.text += word;
     }
-    if (begins && rest.starts_with('.')) {  // a column or a point follows, not a separate name
+    if (begins && rest.starts_with('.')) {  // a point or column of that name follows, not a separate name
       const std::size_t end =
           std::min(rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789.", 1), rest.size());
       out.text += rest.substr(0, end);

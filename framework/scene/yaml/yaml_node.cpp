@@ -19,7 +19,7 @@ std::string Node::shown() const {
   if (is_map()) return "a group of keys";
   if (is_list()) return "a list of " + std::to_string(yaml_->items.size());
   if (!is_scalar()) return "nothing";
-  if (place_.key.empty()) return "a plain text, not a mapping of keys";  // any file may be named: what it contains is not shown
+  if (place_.key.empty()) return "a plain text, not a mapping of keys";  // the user may have named any file, so its content is not shown
   const bool cut = yaml_->text.size() > most;
   return std::string("\"").append(yaml_->text, 0, most).append(cut ? "…\"" : "\"");
 }
