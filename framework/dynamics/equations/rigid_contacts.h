@@ -34,11 +34,11 @@ struct Blow {
   double approach;                     ///< speed before it [m/s]
   double separation;                   ///< speed after it; 0: it stays closed [m/s]
   double impulse;                      ///< normal [N s]
-  std::optional<double> at_rest = {};  ///< when it comes to rest, where it would continue to bounce too low to be resolved [s]
+  std::optional<double> at_rest = {};  ///< when it comes to rest, if its further bounces are too low to be resolved [s]
 };
 
 /// The impact, at one instant, of contacts that touch and of the rigid contacts that are closed: changes the speeds, records the energy
-/// lost, and closes the contacts that do not part. Whether closed contacts, dry contacts and joints stick or slide afterwards is left
+/// lost, and closes the contacts that do not separate. Whether closed contacts, dry contacts and joints stick or slide afterwards is left
 /// undecided.
 /// @returns nothing in a singular configuration or where no impulses are found; the state is then invalid
 std::optional<std::vector<Blow>> strike(const System&, std::span<const int> touching, State&, Equations&);

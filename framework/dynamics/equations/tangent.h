@@ -19,7 +19,7 @@ class Tangent {
   struct Place {
     int row, column;
   };
-  /// The place of each summand, in the order of `evaluate`; the same in every state. A place may have several summands.
+  /// The position of each summand, in the order of `evaluate`; the same in every state. A position may have several summands.
   const std::vector<Place>& places() const { return places_; }
 
   using Weights = TangentWeights;

@@ -121,8 +121,8 @@ bool invert(FlexibleInertia& e) {
   return invert(R, e.frame);
 }
 
-// Without foreshortening the shapes are eliminated first, since their block is 1. With it the frame is eliminated first, since then 1 −
-// B₁ᵀM₁⁻¹B₁ is left, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
+// Without foreshortening the shapes are eliminated first, since their block is 1. With it the frame is eliminated first; this leaves 1 −
+// B₁ᵀM₁⁻¹B₁, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
 void solve(FlexibleInertia& e, double* v) {
   Eigen::Map<Eigen::Vector3d> r(v + 3 * e.body);
   Eigen::Map<VectorXd> eta(v + e.begin, e.n);

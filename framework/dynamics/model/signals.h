@@ -41,7 +41,7 @@ struct MotionSignal {
   auto operator<=>(const MotionSignal&) const = default;
 };
 bool of_two(MotionSignal::Kind);
-/// It is a speed of the motion, not a position or an own state.
+/// Whether it is a speed of the motion, not a position or an own state.
 bool is_speed(MotionSignal::Kind);
 
 /// Its derivatives with respect to the poses (r, angle) of its markers and to their rates.
