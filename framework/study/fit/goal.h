@@ -36,7 +36,7 @@ struct Goal {
   double good_enough() const;
 };
 
-/// Reads `goal` and `subject to`; measures that they describe in words and that the study lacks are added to it.
+/// Reads `goal` and `subject to`; adds to the study the measures that they describe in words and it lacks.
 /// @throws SceneError
 Goal read_goal(const StudyFile&, Study&);
 

@@ -26,7 +26,7 @@ struct Worth {
 
   double worst() const;  ///< the largest excess; 0 if all are satisfied
 };
-/// Both known: smaller excess, or if there is none, smaller value.
+/// Whether a is better than b, both known: smaller excess, or if there is none, smaller value.
 bool better(const Worth&, const Worth&);
 
 /// A point of the box [0, 1]ⁿ.

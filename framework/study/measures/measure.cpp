@@ -30,7 +30,7 @@ std::string rate_of(const std::string& part) {
   return "";
 }
 
-/// Until when a run was to go: one that an event stopped, until then.
+/// The time at which a run should end; if an event stopped it, the time of the event.
 double planned_end(const Scene& scene, const Run& run) {
   const bool in_order = run.status == Status::finished || run.status == Status::ledger_over_bound;
   return in_order ? std::min(scene.run.until, run.t_end) : scene.run.until;
@@ -243,7 +243,7 @@ class Measuring {
     for (const char* part : {".von Mises", ".stress"})
       if (columns_.has(owner + part)) {
         Signal out = of(columns_.motion(owner + part), true);
-        out.smooth = false;  // of the worse fibre: its peak may have a kink
+        out.smooth = false;  // it may be the larger stress of two fibres: its peak may be a kink
         return out;
       }
     return {};

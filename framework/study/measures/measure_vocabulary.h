@@ -5,7 +5,7 @@
 
 #include "framework/study/measures/measure_words.h"
 
-/// The words of measures; longer ones come first where one begins like another.
+/// The words of measures; if one word begins with another, the longer one comes first.
 namespace pintle {
 
 struct StatisticWord {

@@ -51,7 +51,7 @@ SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, co
 /// Results of one value.
 struct FollowedValue {
   std::string parameter;  ///< in SI, or as written; empty where none varies
-  double x = 0;           ///< as a number; its position in the list if it is none
+  double x = 0;           ///< as a number; if it is none, its position in the list
   bool backwards = false;
   std::string status, reason;
   Orbit orbit;
@@ -60,7 +60,7 @@ struct FollowedValue {
 /// @pre rows are of this study
 std::vector<FollowedValue> followed(const Nonlinear&, const std::vector<Row>& rows);
 std::string parameter_header(const Nonlinear&);
-/// The parameter of each case as a number, or its position in the list if it is none.
+/// The parameter of each case as a number; if it is none, its position in the list.
 std::vector<double> parameter_numbers(const Nonlinear&);
 /// "height [m]"
 std::vector<std::string> signal_headers(const Nonlinear&, const std::vector<Row>& rows);

@@ -55,7 +55,7 @@ std::string behind_number(const std::string& text) {
   return std::from_chars(text.data(), text.data() + text.size(), number).ptr;
 }
 
-/// Distinguishes an error in the study from one in a case: by the reader's errors for some of the cases.
+/// Distinguishes an error in the study from one in a case, by the reader's errors for some of the cases.
 class CaseCheck {
  public:
   explicit CaseCheck(const Sweep& sweep) : sweep_(sweep) {}

@@ -12,7 +12,7 @@ namespace pintle {
 /// @returns nothing where there are none
 std::optional<std::string> refined(const std::string& path, const std::string& text);
 
-/// The overrides with everything refined that can be; nothing if there is nothing.
+/// The overrides with all accuracy settings refined; nothing if there are none.
 std::optional<Overrides> refined(const Overrides&);
 
 /// Overrides of all finest values, in the order of the axes; without those of `run` if `model_only`.

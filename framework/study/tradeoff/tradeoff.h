@@ -60,7 +60,7 @@ struct QuantityReference {
   double scale = 1;        ///< scale of relative errors [unit of the quantity]
   bool converged = false;  ///< the differences of refinements fall, or are rounding
   bool chaotic = false;    ///< value: mean of an ensemble, error: its standard error
-  bool constant = false;   ///< the same in every run and setting: it does not distinguish settings
+  bool constant = false;   ///< the same in every run and setting, so it does not distinguish settings
   double ratio = 0;        ///< by which differences fall per decade of tolerance; 0: they do not fall
   double order = 0;        ///< of the model's refinements, log2 of their ratio; 0: none, or not falling
   double spread = 0;       ///< chaotic: standard deviation of single runs [unit of the quantity]
@@ -99,7 +99,7 @@ struct TradePoint {
   std::vector<double> warnings_of = {};  ///< relative: the reference's error, plus that of the ensemble
   std::vector<double> model = {};        ///< relative error of the model at tight tolerance; NaN: not separated
   double error = 0, warning = 0;         ///< of the worst quantity; no error below its uncertainty is claimed
-  double surer = 0;     ///< error of the same setting at a finer tolerance, if larger: a smaller one is by chance, and does not count
+  double surer = 0;     ///< error of the same setting at a finer tolerance, if larger: a smaller error is due to chance and does not count
   bool usable = false;  ///< finished, with a value for every quantity
   bool dominated = false, front = false;
   double counted() const { return error > surer ? error : surer; }

@@ -158,7 +158,7 @@ std::vector<AxisEffect> free_coarsenings(const TradeReport& r, std::size_t point
 
 namespace {
 
-/// Errors below their uncertainty are equal: none of these settings is better because of a smaller uncertainty.
+/// Errors below their uncertainty count as equal: a smaller uncertainty makes none of these settings better.
 void level_warnings(std::vector<TradePoint>& points) {
   std::vector<double> warnings_of;
   for (const TradePoint& p : points)
