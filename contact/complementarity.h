@@ -16,9 +16,9 @@ std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, c
 /// A rigid contact among others: its normal force N ≥ 0 and its friction T, |T| ≤ μ(N + preload), as indices of the unknowns.
 struct UnilateralContact {
   int normal;            ///< –
-  int tangent = -1;      ///< −1: it has no friction, or slides
+  int tangent = -1;      ///< −1: no friction, or it slides
   double mu = 0;         ///< –
-  double preload = 0;    ///< part of the normal force outside the unknowns; it counts only for friction
+  double preload = 0;    ///< part of the normal force outside the unknowns; affects only friction
   int sliding = -1;      ///< for a contact that slides, the column of its friction, which is −direction μN …
   double direction = 0;  ///< … −1 or 1
 };
@@ -30,7 +30,7 @@ struct UnilateralContact {
 std::optional<Eigen::VectorXd> unilateral_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c);
 
 /// Among forces x + Z y of holding contacts, which all have the same effect on the motion, those with N ≥ 0, |T| ≤ μN and the least |y|;
-/// where none satisfy this, those that violate it least. Continuous in x and Z. @param Z  independent columns
+/// if none satisfies this, those that violate it least. Continuous in x and Z. @param Z  independent columns
 Eigen::VectorXd admissible_forces(std::span<const UnilateralContact>, const Eigen::VectorXd& x, const Eigen::MatrixXd& Z);
 
 }  // namespace pintle

@@ -4,8 +4,8 @@
 
 namespace pintle {
 
-/// A part of the library in a separate shared object, libpintle_NAME.so, because the libraries it links take longer to load than many runs:
-/// it is loaded when first needed, and stays loaded.
+/// A part of the library in a separate shared object, libpintle_NAME.so, because its libraries take longer to load than many runs take: it
+/// is loaded when first needed, and stays loaded.
 ///
 /// It is searched for where the program, or the library if that is shared, looks for its own libraries (RUNPATH), then where the system
 /// does (LD_LIBRARY_PATH etc.). CMake sets RUNPATH for targets that link pintle::pintle.
