@@ -123,7 +123,7 @@ void FilmFile::start(int width, int height, double rate) {
   sigemptyset(&usual);
   sigaddset(&usual, SIGPIPE);
   posix_spawnattr_setsigdefault(&own, &usual);
-  posix_spawnattr_setpgroup(&own, 0);  // Ctrl-C goes only to this program, which then stops the film
+  posix_spawnattr_setpgroup(&own, 0);  // Ctrl-C reaches only this program, which then stops the film
   posix_spawnattr_setflags(&own, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   const int error = ::posix_spawnp(&child_, "ffmpeg", &files, &own, argv.data(), environ);
   posix_spawnattr_destroy(&own);

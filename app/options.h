@@ -22,7 +22,7 @@ struct Options {
   std::string restart, at;              ///< a saved state; a time
   bool at_rest = false;                 ///< about the equilibrium of the mechanism
   std::optional<std::string> shard;     ///< of a sweep: "3/8", the part of its cases to run
-  std::vector<std::string> folders;     ///< of parts, to be merged
+  std::vector<std::string> folders;     ///< of the parts to be merged
   int threads = 0;                      ///< of this process; 0: one per core
   std::vector<std::string> quantities;  ///< of a trade-off study, in words
   std::string wanted_error, wanted_time, budget, markdown;

@@ -24,7 +24,7 @@ class Survey {
   /// The force for an arrow of the usual length: of the largest force in each frame, the 90 % quantile over frames [N].
   double usual_force() const;
   double largest_couple() const { return largest_couple_; }
-  /// All forces of all frames, whose arrows the picture is to hold; none where it shows a part alone.
+  /// All forces of all frames, whose arrows must fit in the picture; none if it shows only one owner.
   const std::vector<DrawnForce>& forces() const { return forces_; }
   /// Whether a force of this kind occurs in any frame.
   bool gives(Giver giver) const { return givers_[static_cast<std::size_t>(giver)]; }
