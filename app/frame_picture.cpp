@@ -160,8 +160,7 @@ void FramePicture::fit() {
     const Eigen::AlignedBox2d before = world_, wide = with_arrows();
     if (before.contains(wide)) break;
     world_ = before.merged(wide);
-    world_.min() =
-        world_.center() + close * (world_.min() - world_.center());  // otherwise each iteration would add less and never reach the end
+    world_.min() = world_.center() + close * (world_.min() - world_.center());  // otherwise the iteration would never end
     world_.max() = world_.center() + close * (world_.max() - world_.center());
     choose_scale();
   }

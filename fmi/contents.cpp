@@ -68,8 +68,7 @@ void choose_outputs(const Scene& scene, const std::vector<std::string>& wanted, 
   std::vector<std::string> names = wanted, known;
   if (names.empty())
     for (const SceneOutput& output : scene.outputs)
-      if (!output.place.key.starts_with("states."))
-        names.push_back(output.name);  // PID controllers of `states` are not outputs chosen by the user
+      if (!output.place.key.starts_with("states.")) names.push_back(output.name);  // PID controllers were not chosen
   const bool all = names.empty();
   for (FmuVariable& v : variables)
     if (v.kind == FmuVariable::column) v.output = all, known.push_back(v.name);

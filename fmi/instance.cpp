@@ -50,8 +50,7 @@ FmuInstance::FmuInstance(FmuContents contents, std::filesystem::path resources, 
       tell_(std::move(tell)) {
   for (std::size_t v = 0; v < contents_.variables.size(); ++v)
     if (contents_.variables[v].kind == FmuVariable::input) input_.push_back(v);
-  scene_of(contents_, resources_,
-           {std::vector<std::optional<double>>(contents_.variables.size()), {}, {}});  // checks that the scene exists and can be read
+  scene_of(contents_, resources_, {std::vector<std::optional<double>>(contents_.variables.size()), {}, {}});  // throws if not readable
   reset();
 }
 

@@ -28,13 +28,12 @@ std::size_t cases_in(const SweepPart&, std::size_t cases);
 /// Description of a part in its folder: part.json.
 struct PartFile {
   SweepPart part;
-  std::size_t cases = 0;  ///< of the whole study
-  std::string file;       ///< of the study, as it was named
-  std::string version;    ///< of the program that ran it
-  std::string study, study_text,
-      scene_text;                     ///< fingerprints: of the study with everything it names; of its text; of the text of its scene
-  std::vector<std::string> measures;  ///< their names
-  std::uint64_t print = 0;            ///< fingerprint of all above except the file's name, in the headings of the journals
+  std::size_t cases = 0;                      ///< of the whole study
+  std::string file;                           ///< of the study, as it was named
+  std::string version;                        ///< of the program that ran it
+  std::string study, study_text, scene_text;  ///< fingerprints: of the study with all that it names; of its text; of its scene's text
+  std::vector<std::string> measures;          ///< their names
+  std::uint64_t print = 0;                    ///< fingerprint of all above except the file's name, in the headings of the journals
 };
 PartFile part_file(const Sweep&);  ///< @pre it has a part
 std::string part_json(const PartFile&);
