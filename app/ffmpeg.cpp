@@ -65,7 +65,7 @@ std::vector<std::string> arguments(const std::string& ending, const fs::path& pa
 
 constexpr const char* no_ffmpeg = "ffmpeg, the program that encodes films, is not installed: apt-get install ffmpeg";
 
-/// Looks in the folders of PATH.
+/// Whether the folders of PATH contain it.
 bool ffmpeg_is_there() {
   const char* const path = std::getenv("PATH");
   if (path == nullptr) return true;  // the system then uses default folders

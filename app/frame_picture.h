@@ -17,7 +17,7 @@ struct PictureStyle {
   int width = 1400, height = 0;  ///< [px]; height 0: chosen by the content
   bool even = false;             ///< both even, as required for films
   bool forces = true, paths = true;
-  bool timeless = false;  ///< a body alone, without a time
+  bool timeless = false;  ///< a single body, without a time
   std::string field;      ///< of flexible bodies, in colour
 };
 

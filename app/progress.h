@@ -51,7 +51,7 @@ class StatusLine {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Of a study: the same line; where there is no terminal, a line every half minute.
+/// The same for a study; without a terminal, a line every half minute.
 class StudyLine {
  public:
   explicit StudyLine(bool quiet);

@@ -61,7 +61,7 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command continues from here\n";
 }
 
-/// There are cases, and each was rejected or failed.
+/// Whether there are cases and all were rejected or failed.
 bool none_ran(const SweepEnd& end) {
   const auto ran = [](const Row& row) { return row.status == "finished" || row.status == status_text(Status::ledger_over_bound); };
   return !end.rows.empty() && std::ranges::none_of(end.rows, ran);

@@ -16,7 +16,7 @@ const void* load_module(const char* name);
 
 /// Path of a program located next to the modules.  @throws std::runtime_error  it does not exist
 std::string program_beside_modules(const std::string& name);
-/// Of a file there, to be read; installed ones need not be programs.  @throws std::runtime_error  likewise
+/// Path of a data file located there; when installed it need not be executable.  @throws std::runtime_error  likewise
 std::string file_beside_modules(const std::string& name);
 
 /// The table of a module; Table begins with `const char* version`.

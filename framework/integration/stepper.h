@@ -66,7 +66,7 @@ class Stepper {
   /// The data besides the nodes that the next steps depend on.
   virtual void save(Writer&) const = 0;
   virtual void load(Reader&) = 0;
-  /// The loaded data fit the system and this node.
+  /// Whether the loaded data fit the system and this node.
   virtual bool fits(const Instant&) const = 0;
   /// Evaluates the last step's end as the steps did.
   virtual void evaluate_end(const Step&, Equations&) = 0;

@@ -257,7 +257,7 @@ bool is_held_by_others(const MatrixXd& W, const std::vector<Index>& holding, Ind
   return W(row, row) - by.dot(least_norm.solve(by)) <= dependent * W(row, row);
 }
 
-// What each closed contact does under the forces x.
+// Whether each closed contact opens, sticks or slides under the forces x.
 enum class Doing { opens, sticks, slides };
 std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorXd& c, const VectorXd& x) {
   constexpr double nearly = 1e-9, limit = 1e-8;
@@ -284,7 +284,7 @@ std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorX
 
 }  // namespace
 
-// Where the forces are not unique, one solution is used. A contact that it neither presses nor lets open stays closed.
+// If the forces are not unique, one solution is used. A contact with no force and no opening in it stays closed.
 bool decide_rigid(const System& system, State& state, Equations& eq) {
   VectorXd dy(system.n_y());
   if (!evaluate(system, without_rigid(system, state), eq, dy)) return false;

@@ -8,11 +8,11 @@
 /// instead of as rows of Cq. Theory: docs/theory/friction.md, docs/theory/impact.md.
 namespace pintle {
 
-/// The friction at this index of State::friction sticks.
+/// Whether the friction at this index of State::friction sticks.
 bool sticks(const System&, const State&, std::size_t at);
-/// It is friction in a released joint, which has no effect.
+/// Whether it is friction in a released joint, which has no effect.
 bool rubs_in_released_joint(const System&, const State&, std::size_t at);
-/// This contact is rigid and closed, and the accelerations determine its normal force.
+/// Whether this contact is rigid and closed, and the accelerations determine its normal force.
 bool holds_gap(const System&, const State&, std::size_t contact);
 /// The law of the friction at this index; nullptr if it is not dry.
 const Coulomb* dry_law(const System&, std::size_t at);

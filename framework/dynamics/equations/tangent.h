@@ -10,7 +10,7 @@
 namespace pintle {
 
 /// Derivatives of the residual of the equations of motion, r(q, s, a, λ, t) = M a + Cqᵀλ − f: ∂r/∂q, ∂r/∂s and ∂r/∂a = M, each n × n. Its
-/// pattern follows from the system alone: a block for each body and two for each pair of bodies whose interaction depends on their relative
+/// pattern depends only on the system: a block for each body and two for each pair of bodies whose interaction depends on their relative
 /// motion; pins and welds do not, and couple no bodies. Theory: docs/theory/tangent.md.
 class Tangent {
  public:

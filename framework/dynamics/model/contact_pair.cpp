@@ -81,7 +81,7 @@ std::vector<InternalState> internal_states(const FrictionLaw& law) {
   return all;
 }
 
-// Slip bends the bristles whatever the normal force.
+// Slip bends the bristles even without a normal force.
 ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry,
                        const double* x) {
   ContactEffect out;

@@ -79,17 +79,17 @@ struct ContactEffect {
   std::array<double, most_internal> x_rate{};  ///< rates of its bristles
 };
 
-/// A massless link keeps its two centres apart: no contact law acts, and it does not open or close.
+/// Whether a massless link keeps its two centres apart: then no contact law acts, and it does not open or close.
 inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
 
 inline int written_marker(const ContactPair& pair) { return pair.written_on_a ? pair.a : pair.b; }
-/// Of an effect or of a contact of several pairs: the force that results give.
+/// The force written to results, from an effect or a contact of several pairs.
 template <class Effect>
 const Wrench& written_force(const ContactPair& pair, const Effect& effect) {
   return pair.written_on_a ? effect.on_a : effect.on_b;
 }
 
-/// Slack relative to the mechanism's length: the rounding that a closed gap may show.
+/// Slack relative to the mechanism's length, for the rounding of closed gaps.
 inline constexpr double touching_part = 1e-13;
 inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
 

@@ -39,7 +39,7 @@ void turn_columns(double c, double s, Eigen::Matrix3Xd& B) {
   for (Index i = 0; i < B.cols(); ++i) B.col(i).head<2>() = turned(c, s, B.col(i).head<2>());
 }
 
-// Written-out factorization R = L Lᵀ, root = L⁻ᵀ.
+// Explicit factorization R = L Lᵀ, root = L⁻ᵀ.
 bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
   if (!(R(0, 0) > 0)) return false;
   const double i0 = 1 / std::sqrt(R(0, 0)), l10 = R(1, 0) * i0, l20 = R(2, 0) * i0, d1 = R(1, 1) - l10 * l10;

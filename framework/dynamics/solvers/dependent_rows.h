@@ -37,7 +37,7 @@ class Refinement {
       : unit_(unit), b_(unit), left_(unit), before_(unit), last_(unit), rows_(rows) {}
 
   /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z; shifts_made: signed shifts of the rows of multipliers,
-  /// given where the multipliers themselves are computed and their part that does no work is to be removed. No allocation.
+  /// not null if the multipliers themselves are computed and their part that does no work must be removed. No allocation.
   template <class Solve, class SubtractProduct>
   void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product, const Eigen::VectorXd* shifts_made = nullptr) {
     constexpr int most = 8;

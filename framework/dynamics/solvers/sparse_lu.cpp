@@ -14,7 +14,7 @@ namespace pintle {
 struct SparseLu::Data {
   Data(Pattern p, std::vector<int> order) : pattern(std::move(p)) {
     klu_defaults(&common);
-    common.btf = 0;     // otherwise rows would be matched to columns by pattern alone
+    common.btf = 0;     // otherwise only the pattern would match rows to columns
     common.scale = -1;  // scaled by the caller; this also skips checking the pattern each time
     symbolic = klu_analyze_given(pattern.size(), pattern.column_begin.data(), pattern.row.data(), order.data(), order.data(), &common);
     if (!symbolic) throw std::bad_alloc();

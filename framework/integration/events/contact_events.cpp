@@ -152,7 +152,7 @@ void ContactEvents::start(Step& step) {
   if (!rigid.empty()) strike(rigid, step);
 }
 
-// Provides the reference force for the first step too.
+// Also provides the reference force for the first step.
 void ContactEvents::begin_step(const State& from) {
   for (int c = 0; c < contacts(); ++c)
     if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping())
@@ -223,7 +223,7 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
           .of_every_method = pair.profiles};  // otherwise a long implicit step would skip it
 }
 
-// Gaps so small that they close at this instant.
+// Whether a gap is so small that it closes at this instant.
 bool ContactEvents::touches(int contact, const State& state) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   if (log_.touching(contact) || continues_another(contact)) return false;
@@ -318,7 +318,7 @@ void ContactEvents::end(int contact, Step& step) {
   straighten_bristles(system_, contact, state);
 }
 
-// The time at which the depth was zero, to first order, if that was in the step or would be as soon after its end.
+// The time at which the depth is zero, to first order, if that is within a step length of the step's end.
 double ContactEvents::moment(const Step& step, const Guard& gap) const {
   const double t = step.to.state.t;
   return !(onset_cut_ > 0) && std::abs(gap.value) < std::abs(gap.rate) * step.h ? t - gap.value / gap.rate : t;
@@ -329,9 +329,9 @@ double ContactEvents::speed_to_reach(int contact, double depth) const {
   return pintle::speed_to_reach(pair.normal, lightness(system_, pair), depth);
 }
 
-// The first explicit step of an impact [s]. Its force starts as (1 + χ)(vt)ⁿ, which has no expansion in whole powers, so no embedded error
-// estimate sees the whole error. In the step h the force changes the speed v by (1 + χ) ½ v (hv/δ)ⁿ⁺¹, where δ is the depth that v can
-// reach; a pair makes an error of about a thousandth of this, which is set equal to the tolerance.
+// The first explicit step of an impact [s]. Its force starts as k (1 + χ)(vt)ⁿ, which has no expansion in integer powers, so no embedded
+// error estimate shows the whole error. In the step h the force changes the speed v by (1 + χ) ½ v (hv/δ)ⁿ⁺¹, where δ is the depth that v
+// can reach; a pair makes an error of about a thousandth of this, which is set equal to the tolerance.
 double ContactEvents::onset_step(int contact, double v, double t) const {
   constexpr double missed = 1e-3, clock = 1e-14;
   if (!(v > 0)) return infinite;

@@ -18,7 +18,7 @@ struct SwitchOver {
 struct Engagement {
   std::string trouble = {};   ///< empty: done. Otherwise the state is invalid
   bool changed = false;       ///< something changed: not all elements were already released or engaged
-  double lost = 0, work = 0;  ///< energy lost in engaging joints, and work of drivers as they were engaged [J]
+  double lost = 0, work = 0;  ///< energy lost by engaging joints, and work of drivers during this [J]
 };
 
 /// Releases and engages elements at one instant. Positions are unchanged; speeds are projected, in the metric of M, onto what the engaged

@@ -49,7 +49,7 @@ struct EventOutcome {
   std::string end = {};                                         ///< reason why the integration ends here; empty: it continues
   std::string failure = {};                                     ///< reason why it cannot continue
   std::string did = {};                                         ///< description for the list of happenings; empty: not listed
-  bool save = false, row = false;                               ///< the state is to be saved, a row of results written
+  bool save = false, row = false;                               ///< the state must be saved, a row of results written
 };
 
 /// Record of an event of the scene.

@@ -190,7 +190,8 @@ void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
 
 namespace {
 
-// A closed rigid contact opens although all of them should hold: as when one of a row of discs between two walls is pushed out of the row.
+// Whether a closed rigid contact opens although all of them should hold: as when one of a row of discs between two walls is pushed out of
+// the row.
 bool opens(const System& system, const Equations& eq) {
   constexpr double nearly = 1e-3;
   const Eigen::VectorXd rate = sticking_accelerations(system, eq), by_forces = eq.sticking.J.transpose() * eq.a,
@@ -256,7 +257,7 @@ bool FrictionEvents::decide_rigid_ones(State& state, bool at_limit) {
   return false;
 }
 
-// Of the forces beyond their limit, the one with the largest ratio is made to slide, against its holding force, until the rest can hold.
+// While forces exceed their limits, makes the friction with the largest ratio slide, in the direction opposite to its holding force.
 bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
   constexpr double little = 1e-9, nearly = 1e-6;
   const Resting resting = classify(state, slips);

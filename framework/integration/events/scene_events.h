@@ -75,7 +75,7 @@ class SceneEvents final : public EventGroup {
   const char* fault() const override;
 
  private:
-  /// What an event waits for: to become true or, after acting, false; or nothing any more.
+  /// What an event waits for: to become true or, after acting, false; no_more: it acts only once, and has acted.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   bool believed(int event) const { return waits_[static_cast<std::size_t>(event)] == Waits::for_false; }
   Guard all_of(int event, const State&) const;

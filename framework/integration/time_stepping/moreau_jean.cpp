@@ -188,7 +188,7 @@ bool MoreauJean::push_apart(Instant& end, Equations& eq) {
   return true;
 }
 
-// By the trapezoidal rule, except what impulses have recorded.
+// Integrals by the trapezoidal rule, except those that impulses have recorded.
 void MoreauJean::book_rates(Step& step) const {
   for (std::size_t i = 0; i < system_.integrals.size(); ++i) {
     const Account account = system_.integrals[i].account;

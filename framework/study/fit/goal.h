@@ -30,7 +30,7 @@ struct Goal {
   std::vector<Bound> bounds = {};
 
   Worth worth(const std::vector<double>& values) const;
-  /// Every aim is within its tolerance; always true for minimise and maximise.
+  /// Whether every aim is within its tolerance; always true for minimise and maximise.
   bool reached(const std::vector<double>& values) const;
   /// Value below which further improvement is useless: 1e-4 of each tolerance; negative: none.
   double good_enough() const;

@@ -106,7 +106,7 @@ class Measuring {
     return n;
   }
   bool is_asked(std::size_t contact) const { return asked_.owner.empty() || model_.system.contact_names[contact] == asked_.owner; }
-  /// A massless link never releases the journal: it is always at the wall, without impacts.
+  /// Whether a massless link holds the journal, which then is always at the wall, without impacts.
   bool held(std::size_t contact) const { return is_held(model_.system.contacts[contact]); }
   /// Contacts with a wall, in order of their begin; for two profiles those of all their pairs.
   std::vector<const Impact*> stays(std::size_t contact) const {

@@ -23,7 +23,7 @@ namespace {
   throw SceneError(m.file.empty() ? scene.file : m.file, place, "\"" + m.words + "\" " + message);
 }
 
-/// Quantities that only flexible bodies have.
+/// Whether only flexible bodies have this quantity.
 bool elastic(const Asked& a) {
   constexpr std::array<std::string_view, 11> columns{"ux", "uy", "turn", "N", "V", "M", "stress", "sx", "sy", "txy", "von Mises"};
   if (a.what == What::stress || a.what == What::displacement || a.what == What::deflection) return true;

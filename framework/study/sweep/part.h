@@ -29,7 +29,7 @@ std::size_t cases_in(const SweepPart&, std::size_t cases);
 struct PartFile {
   SweepPart part;
   std::size_t cases = 0;                      ///< of the whole study
-  std::string file;                           ///< of the study, as it was named
+  std::string file;                           ///< path of the study, as given by the user
   std::string version;                        ///< of the program that ran it
   std::string study, study_text, scene_text;  ///< fingerprints: of the study with all that it names; of its text; of its scene's text
   std::vector<std::string> measures;          ///< their names

@@ -25,9 +25,9 @@ struct Sweep {
   std::string text;                    ///< of the study file
   std::uint64_t print = 0;             ///< fingerprint of the study, its scene, the files they name, and the program
   std::vector<Measure> keep = {};      ///< quantities for which each case writes a curve, curves/case-N.csv
-  std::optional<SweepPart> part = {};  ///< of the cases, if not all are to be run
+  std::optional<SweepPart> part = {};  ///< the part of the cases to run; none: all
 
-  bool has(std::size_t k) const { return !part || part->has(k); }                           ///< case k, from 1, is to be run
+  bool has(std::size_t k) const { return !part || part->has(k); }                           ///< whether case k, from 1, must be run
   std::size_t size() const { return part ? cases_in(*part, cases.size()) : cases.size(); }  ///< number of cases to be run
   /// Fingerprint in the headings of its journals: the study's, or the part's own.
   std::uint64_t journal_print() const;

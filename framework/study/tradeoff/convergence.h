@@ -17,7 +17,7 @@ struct Ladder {
 };
 
 /// @param values  coarse to fine, at least two
-/// @param cap  largest assumed ratio per step, whatever is observed
+/// @param cap  upper limit of the ratio per step, even if the observed one is larger
 /// @param scale  of the value, to identify rounding
 /// The error is three times the remainder of a geometric series beyond the last difference (the larger of it and the one predicted from the
 /// difference before), so that a difference small by chance does not reduce it. Where differences do not fall, it is the largest of the

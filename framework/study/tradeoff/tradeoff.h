@@ -158,7 +158,7 @@ Reference find_reference(const TradePlan&, const std::vector<Measure>&, const Ca
 void answer(TradeReport&);
 /// Sets each point's `surer`: numerical errors and model errors that cancel at one tolerance do not at the next.
 void discount_luck(TradeReport&);
-/// Of usable points, by time: no other point is both faster and no less accurate, or as fast and more accurate. Marks them.
+/// The usable points, by time, for which no other is faster and at least as accurate, or as fast and more accurate. Marks them.
 std::vector<std::size_t> pareto_front(std::vector<TradePoint>&);
 /// Usable points that differ from this one in a single axis.
 std::vector<AxisEffect> neighbours(const TradeReport&, std::size_t point);

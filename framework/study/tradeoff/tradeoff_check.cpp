@@ -6,7 +6,7 @@ namespace pintle {
 
 namespace {
 
-/// Number of combinations that are read at most for a value that the reader rejects alone.
+/// Largest number of combinations read for a value that the reader rejects without other values.
 constexpr int most_tries = 400;
 
 Scene scene_with(const CaseSource& source, const Overrides& set) {

@@ -24,7 +24,7 @@ std::size_t knee(const std::vector<TradePoint>& points, const std::vector<std::s
   return best;
 }
 
-/// The error is lower by more than its uncertainty.
+/// Whether the error is lower by more than its uncertainty.
 bool lowers(const TradeReport& r, std::size_t point, const AxisEffect& e) {
   const TradePoint &p = r.points[point], &to = r.points[e.point];
   if (r.plan.axes[e.axis].ordered && e.to < p.at[e.axis]) return false;

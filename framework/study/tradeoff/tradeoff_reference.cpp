@@ -16,7 +16,7 @@ constexpr double loosest = 1e-4;    ///< start of a search with limited time
 constexpr int most_tolerances = 6, most_refinements = 5;
 constexpr const char* chaotic_model =
     "a finer model changes a single chaotic run at random, so the reference is the ensemble of the finest model of the study";
-constexpr std::size_t judged_tolerances = 5;  ///< the last so many tolerances
+constexpr std::size_t judged_tolerances = 5;  ///< number of the last tolerances that are compared
 
 using Clock = std::chrono::steady_clock;
 
@@ -58,7 +58,7 @@ class Search {
 
  private:
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  /// An insufficient reference allows no recommendation: then it may take more time.
+  /// Whether there is time for more: without a sufficient reference there is no recommendation, so it may then take up to `most_`.
   bool may_spend(double more) {
     if (seconds_ <= 0 || spent() + more <= seconds_) return true;
     if (stands()) return false;

@@ -226,7 +226,7 @@ class Trade {
     double time, error;
   };
 
-  /// Estimate from the effect of each group alone with all others finest: time factors multiply, the largest error remains.
+  /// Estimate from the effect of each single group with all others finest: time factors multiply, the largest error remains.
   Guess guess(const At& at) const {
     const TradePoint& finest = out_.points[index(finest_at())];
     const double centre = finest.usable ? finest.time : 0;
@@ -252,7 +252,7 @@ class Trade {
     visit(index(finest_at()), 2 * each);
     std::vector<bool> seen(points().size(), false);
     seen[0] = seen[index(finest_at())] = true;
-    // First the effect of each axis alone, all numerical ones together, ...
+    // First the effect of each single axis, all numerical ones together, ...
     std::vector<std::size_t> stars;
     for (std::size_t i = 1; i < points().size(); ++i)
       for (const auto& group : groups())

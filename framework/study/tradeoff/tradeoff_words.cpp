@@ -20,7 +20,7 @@ std::string times_text(double factor) {
   return factor > 1 ? printed("%.2g times the time", factor) : printed("%.2g of the time", factor);
 }
 
-/// Adds one full stop, whatever the message ends with.
+/// Ends the message with exactly one full stop.
 std::string stopped(std::string s) {
   while (!s.empty() && (s.back() == '.' || s.back() == ' ')) s.pop_back();
   return s + ".";
@@ -103,7 +103,7 @@ bool waits(const TradeReport& r, std::size_t point, std::size_t axis) {
   });
 }
 
-/// Effect of each axis alone on the recommended setting, towards finer and coarser.
+/// Effect of each single axis on the recommended setting, towards finer and coarser values.
 void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   const std::size_t at = *r.recommended;
   const TradePoint& p = r.points[at];
