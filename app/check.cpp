@@ -184,7 +184,7 @@ std::vector<std::string> massless_bodies(const Scene& scene) {
   return out;
 }
 
-/// Checks a scene for which kinematics is possible, but no forces.
+/// Checks a scene that allows kinematics but no computation of forces.
 int check_kinematics(const Options& options, Waiting& waiting, Scene scene, const std::vector<std::string>& massless) {
   scene.warnings.push_back(
       some_of(massless, false) + (massless.size() == 1 ? " lacks" : " lack") +

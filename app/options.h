@@ -72,7 +72,7 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 void print_rows(std::ostream&, const Rows&);  ///< the second column aligned
 /// runs/NAME, or runs/NAME-2, …: never an existing one; `suffix` is added to the scene's name.
 std::filesystem::path results_directory(const Options&, const std::string& suffix = "");
-/// runs/NAME and the suffix, where the same command continues existing results.
+/// runs/NAME and the suffix; there the same command continues existing results.
 std::filesystem::path study_directory(const Options&, const std::string& suffix);
 int thread_count(const Options&);  ///< --threads, or the number of cores
 

@@ -16,8 +16,8 @@ void end_on_signals();
 /// this (JSON's and VTK's) get what they request and the program reaches a place that does check.
 void keep_memory_in_reserve();
 
-/// At the start of the program: if a fault of it, or of a library that lacks memory, ends it, it reports what it was doing and where the
-/// results are. The signal still ends it.
+/// At the start of the program: if a crash of the program, or of a library that lacks memory, ends it, it reports what it was doing and
+/// where the results are. The signal still ends it.
 void tell_of_crashes();
 
 /// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program, but are reported by asked_to_stop; the

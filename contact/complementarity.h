@@ -10,7 +10,7 @@
 namespace pintle {
 
 /// z ≥ 0, M z + q ≥ 0, zᵀ(M z + q) = 0, by Lemke's method [CottlePangStone1992, 4.4].
-/// @returns nothing where it ends on a ray: there is no solution, or the method does not find one
+/// @returns nothing if it ends on a ray: there is no solution, or the method does not find one
 std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q);
 
 /// A rigid contact among others: its normal force N ≥ 0 and its friction T, |T| ≤ μ(N + preload), as indices of the unknowns.
@@ -26,7 +26,7 @@ struct UnilateralContact {
 /// Forces, or impulses, x of contacts for which their opening g = W x + c satisfies 0 ≤ N ⊥ g ≥ 0, and their slip, the rows of `tangent`,
 /// is 0 where |T| is less than μN and otherwise opposes T. All entries of x have the same unit, as do all of W x: docs/theory/impact.md.
 /// @param W  responses, symmetric positive semidefinite   @param c  opening and slip without the forces
-/// @returns nothing where none is found, as in Painlevé's paradox
+/// @returns nothing if none is found, as in Painlevé's paradox
 std::optional<Eigen::VectorXd> unilateral_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c);
 
 /// Among forces x + Z y of holding contacts, which all have the same effect on the motion, those with N ≥ 0, |T| ≤ μN and the least |y|;

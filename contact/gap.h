@@ -21,7 +21,7 @@ struct MovingPoint {
 /// A piece of a body's surface: an arc (a corner if its radius is 0), a straight line, or a span of a curve; in the axes of the point that
 /// carries it. Normals point out of the material; the surface runs with the material to its left.
 struct Piece {
-  double radius = 0;                                      ///< of an arc, < 0 where it is hollow; of a line or curve 0 [m]
+  double radius = 0;                                      ///< of an arc, < 0 if it is hollow; of a line or curve 0 [m]
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();       ///< of the arc; of a line its middle; of a curve 0 [m]
   double normal = 0;                                      ///< direction of the normal at the middle of the piece [rad]
   double half = std::numeric_limits<double>::infinity();  ///< half its extent: of an arc [rad], of a line [m]; infinite: a circle

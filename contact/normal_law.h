@@ -35,7 +35,7 @@ struct ImpactLaw {
 };
 /// All zero without contact, and at zero depth unless d > 0 and it approaches. Stored energy released while the force is limited to zero
 /// counts as lost.
-/// No allocation. @pre impact_rate > 0 where depth > 0
+/// No allocation. @pre impact_rate > 0 if depth > 0
 NormalForce evaluate(const ImpactLaw&, const Approach&);
 
 // Functions for other code: only this file and its implementation know the constants of a law.

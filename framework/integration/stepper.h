@@ -39,7 +39,7 @@ class Stepper {
   /// @returns false in a singular configuration
   virtual bool project(Instant&, Equations&) = 0;
   /// Fills step.to and step.error from step.from and h; step.from is never changed.
-  /// @returns false where it fails; see trouble()
+  /// @returns false if it fails; see trouble()
   virtual bool attempt(double h, const ErrorNorm&, Step&, Equations&) = 0;
   /// The step was accepted; its end is in the equations.
   virtual void accept(Equations&) = 0;

@@ -145,7 +145,7 @@ void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure
   if (limits.keep_run) out.run = std::move(run);
 }
 
-/// The state for a linearisation; nothing, and the reason, where there is none.
+/// The state for a linearisation; nothing, and the reason, if there is none.
 std::optional<State> linearized_about(const Scene& scene, const Model& model, const Question& question, Outcome& out) {
   const Assembly assembly = assemble(scene, model);
   if (question.equilibrium) {

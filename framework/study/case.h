@@ -40,7 +40,7 @@ struct Outcome {
   std::string
       status;  ///< "finished", "failed", "interrupted", "ledger over its bound", "refused" (scene), "not assembled", "over its limit"
   std::string reason;              ///< one line; empty when finished
-  std::vector<double> values;      ///< one per measure; NaN where there is none
+  std::vector<double> values;      ///< one per measure; NaN if there is none
   std::vector<std::string> units;  ///< likewise; empty if the scene was refused
   double build_seconds = 0;        ///< processor time of reading, building, assembling
   double run_seconds = 0;          ///< likewise of simulating

@@ -124,7 +124,7 @@ bool follow_bifurcation_branch(const System& system, const State& state, Equatio
   MatrixXd X;
   const MatrixXd V = free_part(system, eq, b.G, X);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> K(b.G * V);
-  // The free part of G is compared with M⁻¹Gᵀ without joints, and with the rounding of differences of terms that cancel.
+  // G V is compared with G M⁻¹Gᵀ, which ignores the joints, and with the rounding of differences of terms that cancel.
   double whole = 0;
   for (Index d = 0; d < N.cols(); ++d)
     whole = std::max(whole, std::pow(rounding * (rests ? 1 : rate) * uncancelled(system, eq, N.col(d)), 2));

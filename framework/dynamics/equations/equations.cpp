@@ -222,7 +222,7 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   eq.regular = true;
   for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
   if (!eq.regular) return;
-  // Where C = 0 is not met exactly, redundant rows seem independent: their pivots grow as the square of the violation.
+  // If C = 0 is not met exactly, redundant rows seem independent: their pivots grow as the square of the violation.
   constexpr double times = 100;
   const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0,
                least = std::max(dependent_rows::lost, times * off * off);

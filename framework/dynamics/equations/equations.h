@@ -218,7 +218,7 @@ void visit_jacobian(const Equations& eq, Put put) {
 }
 
 /// Effect of clearance joint c in an evaluated state: that of its contact, or of its massless link. The link's normal force is that of the
-/// constraint row and acts at the centres; it is negative where the link pushes, where a wall would have to pull.
+/// constraint row and acts at the centres; it is negative if the link pushes: a wall would have to pull.
 ContactEffect clearance_effect(const System&, const Equations&, std::size_t c);
 
 /// Wrench of a joint at one of its ends, −L_iᵀλ.

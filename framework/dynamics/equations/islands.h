@@ -11,7 +11,7 @@ namespace pintle {
 /// If all contacts of a set are at rest and can stay closed and stick, they do: for a heap of bodies, both rest and motion may be
 /// solutions.
 /// @param slipping  tangents of contacts that already slip
-/// @returns nothing where no forces are found
+/// @returns nothing if no forces are found
 std::optional<Eigen::VectorXd> contact_forces(std::span<const UnilateralContact>, const Eigen::MatrixXd& W, const Eigen::VectorXd& c,
                                               std::span<const int> slipping = {});
 

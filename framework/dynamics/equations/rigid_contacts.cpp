@@ -57,7 +57,7 @@ std::optional<VectorXd> poisson(const Closed& closed, std::span<const double> e,
   return VectorXd(*compression + given + *more);
 }
 
-// Effective restitution of a contact: 0 where the separation speed or the rise would be too small to resolve.
+// Effective restitution of a contact: 0 if the separation speed or the opening would be too small to resolve.
 struct Bounce {
   double e;
   std::optional<double> at_rest = {};  ///< if e is 0 for that reason: when the sequence of decreasing bounces ends

@@ -33,10 +33,10 @@ Eigen::MatrixXd respond_to_sticking(const System&, Equations&);
 /// Rates of the opening speeds and slips of eq.sticking for the accelerations eq.a.
 Eigen::VectorXd sticking_accelerations(const System&, const Equations&);
 /// Updates λ, a, f, contacts and joints to the forces under which no closed gap opens, no sticking contact accelerates along its slip, and
-/// sliding friction matches its normal force. Called by `accelerate`. @returns false where no such forces are found
+/// sliding friction matches its normal force. Called by `accelerate`. @returns false if no such forces are found
 bool hold_sticking(const System&, const State&, Equations&);
 /// Closes the gaps of closed rigid contacts, and removes their opening speeds and the slips of sticking contacts from the speeds; leaves
-/// `speed` as for the corrected state. After `project`. @returns false where the joints do not let a gap close
+/// `speed` as for the corrected state. After `project`. @returns false if the joints do not let a gap close
 bool remove_slip(const System&, State&, Equations&);
 /// Stores the forces determined in the state. After accelerate.
 void keep_friction(const System&, const Equations&, State&);

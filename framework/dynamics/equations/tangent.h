@@ -41,7 +41,7 @@ class Tangent {
     int begin, stride;
   };
   /// An interaction that depends on poses or rates of its n markers. block[i][j]: first summand of ∂(force on body i)/∂(coordinates of body
-  /// j), by columns; −1 where there is none.
+  /// j), by columns; −1 if there is none.
   struct Interaction {
     enum Kind { joint, force, contact, friction } kind;
     std::size_t index, n;

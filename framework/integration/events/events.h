@@ -51,7 +51,7 @@ class Events {
   void keep_end() { known_ = true; }
   void forget_end() { known_ = false; }
   /// Counts events at one instant, and events between which almost no time passes or nothing moves. @param wish  the step's length without
-  /// an event [s]   @returns false where they recur endlessly
+  /// an event [s]   @returns false if they recur endlessly
   bool count(const Step&, const std::optional<EventInStep>&, const DenseOutput&, double wish);
   /// Which events recur, and the remedy.
   std::string again_and_again() const;

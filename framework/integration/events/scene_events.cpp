@@ -302,7 +302,7 @@ void add_words(std::string& did, const std::string& words) {
 
 }  // namespace
 
-// @returns false where they cannot be switched this way
+// @returns false if they cannot be switched this way
 bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& state, EventOutcome& out) {
   std::vector<SwitchOver> changes;
   for (const EventAction& action : actions)

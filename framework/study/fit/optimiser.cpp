@@ -119,7 +119,7 @@ class Searching {
     }
   }
 
-  /// Central differences, one-sided at the ends of the box or where a neighbour is unknown.
+  /// Central differences, one-sided at the ends of the box or if a neighbour is unknown.
   void find_slopes() {
     slope_.assign(settings_.constraints + 1, BoxPoint(n(), 0.0));
     const auto part = [](const Worth& w, std::size_t row) { return row == 0 ? w.value : w.excess[row - 1]; };

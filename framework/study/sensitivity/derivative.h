@@ -6,7 +6,7 @@ namespace pintle {
 
 /// A derivative and its error estimate.
 struct Derivative {
-  double value = 0, error = 0;  ///< NaN where there are no differences
+  double value = 0, error = 0;  ///< NaN if there are no differences
 };
 
 /// From central differences with the steps h, h/2, h/4, …, by Richardson extrapolation: of all entries the one with the smallest error

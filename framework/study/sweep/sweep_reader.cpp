@@ -127,7 +127,7 @@ class CaseCheck {
     }
   }
 
-  /// If the scene cannot be read in any of some cases, the study is wrong.
+  /// If the scene cannot be read in any of the tested cases, the error is in the study.
   void validate_all() const {
     const std::size_t n = std::min(most, sweep_.cases.size());
     std::string first;

@@ -15,8 +15,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using At = std::vector<std::size_t>;
 
-// Shares of a budget: for the reference, and for it while it is insufficient; of the rest, the share after which no further setting is
-// started, and no run of an ensemble.
+// Shares of a budget: for the reference, and for a reference that is still insufficient; of the remaining time, the shares after which no
+// further setting and no further run of an ensemble is started.
 constexpr double for_reference = 0.4, for_want_of_it = 0.7, for_settings = 0.58, in_ensembles = 0.75;
 /// smaller relative differences are rounding
 constexpr double constant = 1e-12;
