@@ -42,8 +42,8 @@ struct Outcome {
   std::string reason;              ///< one line; empty when finished
   std::vector<double> values;      ///< one per measure; NaN if there is none
   std::vector<std::string> units;  ///< likewise; empty if the scene was refused
-  double build_seconds = 0;        ///< processor time of reading, building, assembling
-  double run_seconds = 0;          ///< likewise of simulating
+  double build_seconds = 0;        ///< processor time of reading, building, assembling [s]
+  double run_seconds = 0;          ///< likewise of simulating [s]
   double t_end = 0;                ///< reached [s]
   Counts counts;
   long impacts = 0;              ///< of all clearances
@@ -54,7 +54,7 @@ struct Outcome {
 };
 
 struct CaseLimits {
-  double seconds = 0;                            ///< of simulating; 0: none
+  double seconds = 0;                            ///< limit of the computing time of the simulation [s]; 0: none
   bool keep_run = false;                         ///< Outcome::run
   const std::vector<Measure>* curves = nullptr;  ///< Outcome::curves; nullptr: none
   bool time_alone = false;           ///< only the first and last row: run_seconds is then the integration time, and measures are NaN

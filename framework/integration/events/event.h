@@ -54,7 +54,7 @@ struct EventOutcome {
 
 /// Record of an event of the scene.
 struct Happening {
-  double t = 0;
+  double t = 0;  ///< [s]
   std::string event, did;
   template <class A>
   void archive(A& x) {

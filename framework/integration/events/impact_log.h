@@ -18,7 +18,7 @@ Guard onset_of(const System&, int contact, const State&);
 /// For profiles, how far inside its pieces a contact is, and at which side it is nearest to leaving them.
 Margin margin_of(const System&, int contact, const State&);
 
-/// Whether the contact, or the pair that it continues, was under load at the end of the step before.
+/// Whether the contact, or a pair beyond the ends of its pieces, was under load at the end of the step before.
 bool was_pressed(const System&, int contact, const State& from);
 /// The time by which time-stepping divides the impulse of a contact in a step h to report a force [s]: h for a continuing contact; the
 /// fixed step for an impact, and for a remainder of a step too short to resolve forces.

@@ -101,7 +101,7 @@ struct Orbit {
   std::vector<double> running_t;             ///< [s]
   std::vector<std::vector<double>> running;  ///< estimates of the exponents at these times
   double interval = 0;                       ///< of a section by time [s]
-  double end_t = 0;                          ///< time of the final state
+  double end_t = 0;                          ///< time of the final state [s]
   std::vector<double> end;                   ///< final coordinates, speeds and states; empty if there are none
 
   /// All members as numbers, which a journal stores exactly.
@@ -129,7 +129,7 @@ LyapunovTimes lyapunov_times(const CaseSource&, const Overrides&, const Lyapunov
 
 /// Limits of one value.
 struct OrbitLimits {
-  double seconds = 0;  ///< of computing; 0: unlimited
+  double seconds = 0;  ///< of computing [s]; 0: unlimited
   /// Called from time to time with the finished share and the progress in words; returns false to interrupt.
   std::function<bool(double share, const std::string& at)> go_on = {};
 };

@@ -59,7 +59,7 @@ struct SweepCount {
   std::size_t done = 0;     ///< finished in this session
   std::size_t trouble = 0;  ///< of these, not "finished"
   double busy = 0;          ///< total time of all workers spent on cases [s]
-  double seconds = 0;       ///< since the start of the session
+  double seconds = 0;       ///< since the start of the session [s]
 };
 
 struct SweepSettings {

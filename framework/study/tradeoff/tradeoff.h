@@ -81,7 +81,7 @@ struct Reference {
   std::vector<ReferenceLevel> levels;  ///< in the order run
   std::vector<QuantityReference> of;   ///< for each quantity
   std::string trouble;                 ///< why there is none; otherwise empty
-  double seconds = 0;                  ///< of the longest run at a tolerance
+  double seconds = 0;                  ///< of the longest run at a tolerance [s]
   bool short_of_time = false;          ///< it is incomplete for lack of time
 };
 
@@ -127,7 +127,7 @@ struct TradeReport {
   std::vector<std::size_t> front;                                  ///< by time
   std::optional<std::size_t> cheapest, best_in_time, recommended;  ///< only what the reference supports
   std::vector<std::string> said;                                   ///< the answers in words
-  double seconds = 0;                                              ///< spent
+  double seconds = 0;                                              ///< spent [s]
   bool stopped = false;                                            ///< by the user
   bool cut = false;                                                ///< by the budget: some settings were not run
   std::size_t ran() const;                                         ///< settings with a time and an error
@@ -150,8 +150,8 @@ struct TradeListener {
 TradeReport run_tradeoff(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, const TradeListener& = {});
 
 /// The reference of a plan. docs/studies.md describes its justification.
-/// @param seconds  available time; 0: unlimited
-/// @param most  available time while the reference is not accurate to a third of the requested error
+/// @param seconds  available time [s]; 0: unlimited
+/// @param most  available time [s] while the reference is not accurate to a third of the requested error
 Reference find_reference(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, double seconds = 0, double most = 0);
 
 /// Derives dominance, the front and the answers, including their words, from points with times and errors.
