@@ -60,7 +60,7 @@ struct StepEnd {
 };
 
 /// A scene that an importer simulates step by step. Members throw FmuError, SceneError or AssemblyError and then leave its state
-/// effectively unchanged.
+/// effectively unchanged; if the run itself fails, it is over.
 class FmuInstance {
  public:
   using Tell = std::function<void(const std::string& warning)>;
