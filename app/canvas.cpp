@@ -152,7 +152,7 @@ void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cell
     cairo_new_sub_path(surface_->pen);
     trace({points.col(t[0]), points.col(t[1]), points.col(t[2])}, true);
   });
-  cairo_fill(surface_->pen);  // all at once: if filled one by one, the paper would show between triangles
+  cairo_fill(surface_->pen);  // all at once: if they were filled one by one, the paper would show between triangles
 }
 
 void Canvas::fill(const Eigen::Matrix2Xd& points, const std::vector<Cells>& cells, const std::vector<Colour>& colours) {

@@ -15,7 +15,7 @@ namespace pintle {
 using Colour = Eigen::Vector3d;  // red, green, blue in 0 … 1
 using Eigen::Vector2d;
 
-/// From blue for the least value to red for the greatest. @param share  clamped to 0 … 1
+/// From blue for the least value to red for the greatest. @param share  position in the range, clamped to 0 … 1
 Colour field_colour(double share);
 
 enum class Align { left, right };

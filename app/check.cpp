@@ -58,7 +58,7 @@ void print_flexible(const Model& model) {
           percent(r.compliance) + (r.compliance_at.empty() ? "" : " (" + r.compliance_at + ")") + "; " + r.basis});
 }
 
-/// How `keep: auto` chose its modes.
+/// Prints how `keep: auto` chose its modes.
 void print_choice(const FlexibleReport& r) {
   std::cout << "  \"" << r.body << "\": keep auto: " << r.choice->reason << "\n";
   if (r.choice->considered.empty()) return;
@@ -92,7 +92,7 @@ void print_estimates(const Model& model) {
                 << " Hz; its loads change its first frequency by " << percent(r.motion->by_all_loads) << " %\n";
 }
 
-/// Redundant rows of one joint implied by the same joints, for one line of output.
+/// Redundant rows of one joint that the same other joints imply: one line of output.
 struct RedundantRows {
   const Redundancy* first;
   std::string rows;
@@ -176,7 +176,7 @@ void foresee_room(const Options& options, const Scene& scene, Model& model) {
     model.warnings.push_back(impossible.what());
   }
 }
-/// Bodies without mass, for which forces have no effect.
+/// Warns of bodies without mass, on which forces have no effect.
 std::vector<std::string> massless_bodies(const Scene& scene) {
   std::vector<std::string> out;
   for (const SceneBody& b : scene.bodies)
@@ -184,7 +184,7 @@ std::vector<std::string> massless_bodies(const Scene& scene) {
   return out;
 }
 
-/// Checks a scene for which kinematics is possible, but no forces.
+/// Checks a scene that allows kinematics but no computation of forces.
 int check_kinematics(const Options& options, Waiting& waiting, Scene scene, const std::vector<std::string>& massless) {
   scene.warnings.push_back(
       some_of(massless, false) + (massless.size() == 1 ? " lacks" : " lack") +

@@ -79,7 +79,7 @@ CLI::Validator whole(int least, int most) {
       "");
 }
 
-/// For files and folders: `--out ""` is not a default, but an unset variable of a script.
+/// For files and folders: `--out ""` does not mean the default; it comes from an unset variable in a script.
 CLI::Validator named() {
   return CLI::Validator(
       [](const std::string& path) {
@@ -88,7 +88,8 @@ CLI::Validator named() {
       "");
 }
 
-/// A file with a fixed format, for which another ending would be misleading. @param ending  ".svg"   @param what  "a plot is SVG"
+/// A file with a fixed format, for which another ending of its name would be misleading. @param ending  ".svg"   @param what  "a plot is
+/// SVG"
 CLI::Validator ends_in(const std::string& ending, const std::string& what) {
   return CLI::Validator(
       [ending, what](const std::string& path) {
@@ -153,7 +154,7 @@ void add_merge_options(CLI::App& command, Options& options) {
   command.footer(what_merge_writes);
 }
 
-/// Other studies than sweeps cannot be divided. The option is not in their help.
+/// Only sweeps can be divided: other studies reject the option, and their help does not show it.
 void refuse_shard(CLI::App& command, const std::string& why) {
   const std::string name = command.get_name();
   command
@@ -237,7 +238,7 @@ void add_linearize_options(CLI::App& command, Options& options) {
   command.footer(what_linearize_writes);
 }
 
-/// Limits of access and cost for a scene, which no scene can set: SECURITY.md.
+/// Limits of access and cost, which a scene cannot set itself: SECURITY.md.
 void add_bounds(CLI::App& command, Options& options) {
   command.add_option("--allow-path", options.allowed, "also let the scene read files in this folder and its subfolders; may be repeated")
       ->allow_extra_args(false)

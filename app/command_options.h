@@ -6,10 +6,10 @@
 
 namespace pintle::app {
 
-/// Whether another program executes a command, which alone knows its options.
+/// Whether a separate program executes the command and reads its options.
 bool is_passed_on(const std::string& command);
 
-/// The options of a command, by its name, and the description in its help of the files it writes.
+/// Adds the options of a command, by its name, and to its help the description of the files that it writes.
 void add_options(CLI::App& command, Options&);
 
 }  // namespace pintle::app

@@ -15,7 +15,7 @@ namespace {
 int launched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
     if (const char* size = std::getenv(name)) return std::atoi(size);
-  // srun sets these for the tasks of a step; the script of a batch job has neither of them.
+  // srun sets these for the tasks of a step; they are not set in the script of a batch job.
   if (std::getenv("SLURM_STEP_NUM_TASKS") && std::getenv("SLURM_PROCID") && std::getenv("SLURM_LOCALID"))
     return std::atoi(std::getenv("SLURM_STEP_NUM_TASKS"));
   return std::getenv("PMIX_RANK") || std::getenv("PMI_RANK") ? 1 : 0;

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr int default_frames = 24;
 constexpr Eigen::Index frames_up_to = 30'000;  ///< nodes; larger bodies are animated only on request
 
-/// x, or 0 if it is only rounding relative to `scale`.
+/// x; 0 if it is only rounding relative to `scale`.
 double tidy(double x, double scale) { return std::abs(x) < 1e-9 * scale ? 0 : x; }
 
 std::string place(const Eigen::Vector2d& x, double size) {

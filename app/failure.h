@@ -6,10 +6,10 @@ namespace pintle::app {
 /// @pre called in a catch block  @returns the exit code
 int report_failure();
 
-/// Prints that there was not enough memory, for what, and where the results are. Allocates none.
+/// Prints that memory ran out, during which activity, and where the results are. Allocates no memory.
 void report_lack_of_memory();
 
-/// What the main function of each program of the command line does: prepares signals, failed writes and the threads of libraries.
+/// The common main function of the command-line programs: prepares the handling of signals and failed writes, and the threads of libraries.
 /// @returns the exit code of carry_out, or that of the exception that it throws, which is reported
 int run_program(int argc, char** argv, int (*carry_out)(int, char**));
 

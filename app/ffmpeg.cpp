@@ -65,7 +65,7 @@ std::vector<std::string> arguments(const std::string& ending, const fs::path& pa
 
 constexpr const char* no_ffmpeg = "ffmpeg, the program that encodes films, is not installed: apt-get install ffmpeg";
 
-/// Looks in the folders of PATH.
+/// Whether the folders of PATH contain it.
 bool ffmpeg_is_there() {
   const char* const path = std::getenv("PATH");
   if (path == nullptr) return true;  // the system then uses default folders
@@ -123,7 +123,7 @@ void FilmFile::start(int width, int height, double rate) {
   sigemptyset(&usual);
   sigaddset(&usual, SIGPIPE);
   posix_spawnattr_setsigdefault(&own, &usual);
-  posix_spawnattr_setpgroup(&own, 0);  // Ctrl-C goes only to this program, which then stops the film
+  posix_spawnattr_setpgroup(&own, 0);  // Ctrl-C reaches only this program, which then stops the film
   posix_spawnattr_setflags(&own, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   const int error = ::posix_spawnp(&child_, "ffmpeg", &files, &own, argv.data(), environ);
   posix_spawnattr_destroy(&own);

@@ -8,11 +8,11 @@
 
 namespace pintle {
 
-/// What is drawn of a run, as a picture or a film.
+/// What a picture or film of a run shows.
 struct Drawn {
   std::filesystem::path directory, file;
   PictureStyle style;
-  std::string around;                 ///< an owner that fills the picture
+  std::string around;                 ///< an owner to show alone, filling the picture
   std::optional<double> deformation;  ///< of flexible bodies, drawn with this factor
   bool quiet = false;
 };

@@ -78,7 +78,7 @@ FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, cons
   canvas_ = std::make_unique<Canvas>(width_, height_, letters * small_);
 }
 
-/// Names from the right, in as many rows as needed next to the time, at most three and fewer in a low picture.
+/// Names from the right, in as many rows next to the time as needed: at most three, fewer in a low picture.
 void FramePicture::name_bodies(const Drawing& drawing) {
   const Canvas measure(1, 1, letters * small_);
   const double disc = 24 * small_, gap = 20 * small_, side = rim_width * small_;
@@ -145,8 +145,8 @@ void FramePicture::place_notes() {
   bottom_ = static_cast<int>(small_ * (50 + line_height * rows + field_rows() * field_row));
 }
 
-/// Scales the world to fill the picture. Arrows have lengths in pixels and need room in the picture: the scale of the world is reduced for them
-/// down to a share of it; below that the arrows are shortened.
+/// Scales the world to fill the picture. Arrows have lengths in pixels and need room: the scale of the world is reduced for them, at most
+/// to least_share of it; then the arrows are shortened.
 void FramePicture::fit() {
   constexpr int most = 20;
   constexpr double least_share = 0.6, close = 1.001;
@@ -161,14 +161,14 @@ void FramePicture::fit() {
     if (before.contains(wide)) break;
     world_ = before.merged(wide);
     const Eigen::Vector2d middle = world_.center();
-    world_.min() = middle + close * (world_.min() - middle);  // or each round would add less, and never all
+    world_.min() = middle + close * (world_.min() - middle);  // otherwise the iteration would never end
     world_.max() = middle + close * (world_.max() - middle);
     choose_scale();
   }
   shortened_ = arrow_share();
 }
 
-/// From its foot [px].
+/// The arrow from its foot to its head [px].
 Vector2d FramePicture::arrow_of(const DrawnForce& f) const {
   const double size = f.force.norm();
   return usual_force_ > 0 && size > 0 ? Vector2d(std::min(size / usual_force_, 3.0) * arrow_pixels() / size * f.force) : Vector2d(0, 0);
@@ -181,7 +181,7 @@ Eigen::AlignedBox2d FramePicture::with_arrows() const {
   return out;
 }
 
-/// As much of their length as the picture holds of all arrows whose foot is in it.
+/// The largest factor of the arrows' lengths, at most 1, with which all arrows with their foot in the picture fit in it.
 double FramePicture::arrow_share() const {
   const Eigen::AlignedBox2d shown(Vector2d(0, bottom_), Vector2d(width_, height_ - top_));
   double share = 1;
@@ -196,7 +196,7 @@ double FramePicture::arrow_share() const {
   return share;
 }
 
-/// And the height where it is free.
+/// Also chooses the height if it is not given.
 void FramePicture::choose_scale() {
   const int margins = bottom_ + top_, inner = static_cast<int>(width_ - 2 * rim_width * small_);
   const Vector2d sizes = world_.sizes();

@@ -17,7 +17,7 @@ struct PictureStyle {
   int width = 1400, height = 0;  ///< [px]; height 0: chosen by the content
   bool even = false;             ///< both even, as required for films
   bool forces = true, paths = true;
-  bool timeless = false;  ///< a body alone, without a time
+  bool timeless = false;  ///< a single body, without a time
   std::string field;      ///< of flexible bodies, in colour
 };
 
@@ -70,13 +70,13 @@ class FramePicture {
   PictureStyle style_;
   Eigen::AlignedBox2d asked_, world_ = {};  ///< as requested, and with a margin
   double usual_force_, largest_couple_;
-  std::vector<DrawnForce> forces_;  ///< whose arrows are to be inside
+  std::vector<DrawnForce> forces_;  ///< those whose arrows must be inside
   FieldRange range_;
   std::array<bool, 4> givers_;                     ///< kinds of forces that occur in any frame
   int width_, height_ = 0, top_ = 0, bottom_ = 0;  ///< [px]
   double small_ = 1;                               ///< scale of fonts and lines in small pictures
   double scale_ = 1;                               ///< [px/m]
-  double shortened_ = 1;                           ///< arrows, so that they stay inside
+  double shortened_ = 1;                           ///< factor of the arrows' lengths, so that they stay inside
   std::map<int, Colour> colours_;                  ///< of owners that are bodies with a shape
   std::vector<Label> labels_;
   std::vector<Note> notes_;

@@ -169,7 +169,8 @@ Drawing read_lines(const fs::path& file) {
   return drawing;
 }
 
-/// Of a run that was killed, before it could list them: frames/00012.vtu, with its bodies in frames/rod_00012.vtu. Each is whole.
+/// The frames of a run that was killed before it could list them: frames/00012.vtu, with its bodies in frames/rod_00012.vtu. Each file is
+/// complete.
 std::vector<FrameFiles> unlisted_frames(const fs::path& folder) {
   std::map<long, FrameFiles> out;
   std::vector<std::pair<long, fs::path>> bodies;
@@ -190,7 +191,7 @@ std::vector<FrameFiles> unlisted_frames(const fs::path& folder) {
     if (const auto frame = out.find(number); frame != out.end()) frame->second.others.push_back(file);
   std::vector<FrameFiles> frames;
   for (auto& [number, files] : out) frames.push_back(std::move(files));
-  if (!bodies.empty() && frames.size() > 1) frames.pop_back();  // not all of its bodies may be there
+  if (!bodies.empty() && frames.size() > 1) frames.pop_back();  // the files of its bodies may be missing
   return frames;
 }
 

@@ -1,4 +1,4 @@
-// The command line. Thin: a user of the library can do everything that it does.
+// The command line. It contains little code: a user of the library can do everything that it does.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -93,7 +93,7 @@ int carry_out(int argc, char** argv) {
   return exit == ok ? trouble : exit;
 }
 
-/// For lack of memory so severe that not even an error can be reported normally.
+/// Called if memory is so short that an error cannot be reported normally.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr e = std::current_exception()) std::rethrow_exception(e);

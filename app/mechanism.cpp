@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "3 (the last has not ended), peak force 20 N, deepest 1e-06 m"; of rigid surfaces an impulse in place of a depth.
+/// "3 (the last has not ended), peak force 20 N, deepest 1e-06 m"; for rigid surfaces, an impulse instead of a depth.
 std::string contacts_text(const ContactPair& pair, int first, const std::vector<Impact>& impacts) {
   long begun = 0, ended = 0;
   double deepest = 0, force = 0, impulse = 0;
@@ -75,7 +75,7 @@ void print_run(const Scene& scene, const Model& model, const Run& run, const fs:
     const Integral& integral = s.integrals[i];
     const double booked = run.integrals[i];
     const bool may_be_none = integral.account == Account::scheme || integral.account == Account::switching;
-    if (may_be_none && booked == 0) continue;  // the scheme could have become implicit, or switches could have acted, but did not
+    if (may_be_none && booked == 0) continue;  // the scheme did not become implicit, or no switch acted
     rows.emplace_back("  " + integral_name(s, integral), number(booked) + " J");
   }
   for (std::size_t c = 0; c < s.contacts.size(); ++c) {
@@ -122,7 +122,7 @@ class Recording {
         identity_(identity(scene, model, assembly)),
         files_(directory, scene, model),
         kept_for_report_(directory / "run.json", least_room + 4 * scene.filled_in.size()) {
-    files_.flush();  // what a kill leaves has headings, and says of what scene it is
+    files_.flush();  // even if the run is killed, the files have headings and name the scene
     write_text(directory_ / "run.json", begun_json(scene));
     if (scene.output.frames < 2) return;
     writer_.emplace(directory);
@@ -180,7 +180,7 @@ std::optional<SavedState> saved_state(const Options& options, const Scene& scene
   return from;
 }
 
-/// The results once more, as options ask for: as a page, as an HDF5 file. @returns the exit code
+/// Writes the results in further forms, if options request them: a page, an HDF5 file. @returns the exit code
 int write_other_forms(const Options& options, const fs::path& out) {
   const auto tell = [&](const char* what, const fs::path& file) {
     if (!options.quiet && !options.json) std::cout << "  " << what << ": " << file.string() << "\n";

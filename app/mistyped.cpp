@@ -22,11 +22,11 @@ std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> out;
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->nonpositional(); }))
     for (const std::string& name : option->get_lnames())
-      if (!option->get_group().empty()) out.push_back("--" + name);  // others are for another command
+      if (!option->get_group().empty()) out.push_back("--" + name);  // options without a group belong to another command
   return out;
 }
 
-/// Names of commands: all that are equally near; or the existing ones.
+/// Names of commands: those nearest to the written one, otherwise all.
 std::string meant(const std::string& word, const std::vector<std::string>& commands) {
   const std::string best = nearest(word, commands);
   std::vector<std::string> near;

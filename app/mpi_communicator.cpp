@@ -16,7 +16,7 @@ int number_in(const char* name) {
   return text ? std::atoi(text) : 0;
 }
 
-/// Whether the launcher has put all processes on this machine, if it tells.
+/// Whether the launcher has started all processes on this machine; false if that is unknown.
 bool on_one_machine() {
   if (const int all = number_in("OMPI_COMM_WORLD_SIZE"); all > 0) return number_in("OMPI_COMM_WORLD_LOCAL_SIZE") == all;
   return number_in("SLURM_STEP_NUM_NODES") == 1;

@@ -60,7 +60,7 @@ void add_impacts(const ImpactFigures& f, std::size_t returns, Rows& rows) {
   if (f.grazing > 0) rows.emplace_back("grazing", number(f.grazing) + " impacts slower than 5 % of the median");
 }
 
-/// Of a value the digits that its error leaves, one at least.
+/// A value with the digits that its error leaves certain, at least one.
 std::string known_digits(double x, double error) {
   constexpr int most = 6;
   if (!(error > 0) || x == 0) return number(x);
@@ -85,7 +85,7 @@ void add_orbit(const Cycle& cycle, Rows& rows) {
   if (cycle.re.size() > most_told) rows.emplace_back("", "and " + counted(cycle.re.size() - most_told, "smaller one") + ": orbits.csv");
 }
 
-/// One row for each stretch of values whose orbits are as stable, and one for each change between.
+/// One row for each kind of stability with its number of values, and one for each loss of stability.
 void add_branch(const std::vector<FollowedValue>& values, Rows& rows) {
   for (const OrbitStability one : {OrbitStability::stable, OrbitStability::neutral, OrbitStability::unstable}) {
     const auto is_one = [&](const FollowedValue& v) { return v.orbit.cycle.found() && stability(v.orbit.cycle) == one; };
@@ -129,7 +129,7 @@ void print(const Nonlinear& study, const SweepEnd& end, const std::vector<Follow
 
 Curve dots(const std::string& label) { return {.label = label, .x = {}, .y = {}, .dashed = false, .points = true}; }
 
-/// Periodic orbits over the returns, as `at` says where: full where they are stable.
+/// Periodic orbits over the returns, at the positions that `at` gives: filled dots where they are stable.
 template <class F>
 void add_orbits(const std::vector<FollowedValue>& values, const F& at, Panel& panel) {
   for (const bool stable : {true, false}) {
@@ -225,7 +225,7 @@ void warn_of_doubts(const Nonlinear& study, const std::vector<FollowedValue>& va
   std::cerr << first.reason << "\n";
 }
 
-/// Of values that have not all that was asked for. @returns the exit code
+/// Reports values without all requested results. @returns the exit code
 int exit_after(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   const auto lacks = [](const FollowedValue& v) { return v.status != "finished"; };
   const auto n = std::ranges::count_if(values, lacks);

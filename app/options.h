@@ -22,7 +22,7 @@ struct Options {
   std::string restart, at;              ///< a saved state; a time
   bool at_rest = false;                 ///< about the equilibrium of the mechanism
   std::optional<std::string> shard;     ///< of a sweep: "3/8", the part of its cases to run
-  std::vector<std::string> folders;     ///< of parts, to be merged
+  std::vector<std::string> folders;     ///< of the parts to be merged
   int threads = 0;                      ///< of this process; 0: one per core
   std::vector<std::string> quantities;  ///< of a trade-off study, in words
   std::string wanted_error, wanted_time, budget, markdown;
@@ -72,7 +72,7 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 void print_rows(std::ostream&, const Rows&);  ///< the second column aligned
 /// runs/NAME, or runs/NAME-2, …: never an existing one; `suffix` is added to the scene's name.
 std::filesystem::path results_directory(const Options&, const std::string& suffix = "");
-/// runs/NAME and the suffix, where the same command continues existing results.
+/// runs/NAME and the suffix; there the same command continues existing results.
 std::filesystem::path study_directory(const Options&, const std::string& suffix);
 int thread_count(const Options&);  ///< --threads, or the number of cores
 

@@ -211,7 +211,7 @@ int write(const CLI::App& command, Choice& choice) {
   return app::ok;
 }
 
-/// @throws std::invalid_argument  the file does not end as what the command makes
+/// @throws std::invalid_argument  the file's ending does not fit the command
 void validate_ending(const std::string& name, const fs::path& file) {
   if (name == "pintle film" && !FilmFile::is_film(file))
     throw std::invalid_argument(file.string() + ": a film ends in .mp4, .webm or .gif; pictures are drawn by pintle picture");

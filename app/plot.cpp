@@ -96,7 +96,7 @@ fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
   refuse_column(tables.front().parent_path(), name, known);
 }
 
-/// @param evenly  at evenly spaced rows, so that columns have the same times; otherwise with the extremes of each stretch
+/// @param evenly  true: at evenly spaced rows, so that columns have the same times; false: the extremes of each interval
 PlottedColumn read_column(const fs::path& table, const std::string& name, bool evenly) {
   constexpr std::size_t points = 4000;
   const std::size_t columns = CsvReader(table).header().size();

@@ -62,7 +62,7 @@ const char* crash_words(int signal) {
 extern "C" void tell_of_crash(int signal) {
   say("pintle: crashed ("), say(crash_words(signal)), say(") while "), say(activity);
   say(": an error in the program, or in a library that ran out of memory; please report it"), say(where_results_are()), say("\n");
-  ::raise(signal);  // as it would have ended: the handler served once
+  ::raise(signal);  // ends as it would have without the handler, which is called only once
 }
 
 extern "C" void ask_to_stop(int signal) {

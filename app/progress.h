@@ -16,8 +16,8 @@ void end_on_signals();
 /// this (JSON's and VTK's) get what they request and the program reaches a place that does check.
 void keep_memory_in_reserve();
 
-/// At the start of the program: if a fault of it, or of a library that lacks memory, ends it, it reports what it was doing and where the
-/// results are. It still ends by the signal.
+/// At the start of the program: if a crash of the program, or of a library that lacks memory, ends it, it reports what it was doing and
+/// where the results are. The signal still ends it.
 void tell_of_crashes();
 
 /// From now on, Ctrl-C, a request to terminate and the end of the terminal do not end the program, but are reported by asked_to_stop; the
@@ -51,11 +51,11 @@ class StatusLine {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Of a study: the same line; where there is no terminal, a line every half minute.
+/// The same for a study; without a terminal, a line every half minute.
 class StudyLine {
  public:
   explicit StudyLine(bool quiet);
-  /// Shows the text that `say` makes, if it is time to.
+  /// Shows the text that `say` returns, if an update is due.
   template <class Say>
   void tell(const Say& say) {
     if (line_.due()) line_.show(say());
@@ -72,7 +72,7 @@ class StudyLine {
 };
 
 std::string span_text(double seconds);  ///< "8.3 s", "32 s", "5 min 2 s"
-/// ", 32 s left" where `done` of `all` took so many seconds; nothing where none is done.
+/// ", 32 s left" if `done` of `all` took `seconds`; empty if none is done.
 std::string time_left(double done, double all, double seconds);
 
 /// Progress of a run, by the time reached.

@@ -60,7 +60,7 @@ void print(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& a
   print_rows(std::cout, rows);
 }
 
-// A measure that no case has is no result.
+// Whether every measure has a nominal value; reports those without.
 bool has_values(const SensitivityPlan& plan, const std::vector<MeasureSensitivity>& all) {
   bool out = true;
   for (const MeasureSensitivity& m : all)

@@ -17,14 +17,14 @@ class Survey {
   Survey(std::string around, std::string field) : around_(std::move(around)), field_(std::move(field)) {}
   void add(const Drawing&);
 
-  /// What moves, and the nearby part of the ground; a surface that contains it, such as a bowl with a ball, is shown completely. For a
-  /// force or couple, the surroundings of its point.
+  /// The box of everything that moves and the nearby part of the ground; a surface that contains the moving things, as a bowl contains a
+  /// ball, is included completely. For a force or couple, the surroundings of its point.
   /// @throws std::invalid_argument  nothing is drawn of the owner; std::runtime_error  there is nothing at all
   Eigen::AlignedBox2d world() const;
   /// The force for an arrow of the usual length: of the largest force in each frame, the 90 % quantile over frames [N].
   double usual_force() const;
   double largest_couple() const { return largest_couple_; }
-  /// All forces of all frames, whose arrows the picture is to hold; none where it shows a part alone.
+  /// All forces of all frames, whose arrows must fit in the picture; none if it shows only one owner.
   const std::vector<DrawnForce>& forces() const { return forces_; }
   /// Whether a force of this kind occurs in any frame.
   bool gives(Giver giver) const { return givers_[static_cast<std::size_t>(giver)]; }

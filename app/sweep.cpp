@@ -61,13 +61,13 @@ void print(const Sweep& sweep, const SweepEnd& end, const fs::path& out) {
   if (!end.whole) std::cout << "  " << (asked_to_stop() ? stopped_by() : "stopped") << "; the same command continues from here\n";
 }
 
-/// There are cases, and each was rejected or failed.
+/// Whether there are cases and all were rejected or failed.
 bool none_ran(const SweepEnd& end) {
   const auto ran = [](const Row& row) { return row.status == "finished" || row.status == status_text(Status::ledger_over_bound); };
   return !end.rows.empty() && std::ranges::none_of(end.rows, ran);
 }
 
-/// A part that has ended is whole, whatever became of its cases: `pintle merge` judges all of them.
+/// A part that has ended is complete even if cases failed: `pintle merge` evaluates all cases together.
 int exit_code_of(const Sweep& sweep, const SweepEnd& end) {
   if (sweep.part || !none_ran(end)) return ok;
   std::cerr << sweep.study.file << ": none of " << end.rows.size() << " cases ran to its end; case " << end.rows.front().number << ": "
@@ -81,7 +81,7 @@ void tell_lack_of_memory(const SweepEnd& end, const std::string& remedy) {
               << " again\n";
 }
 
-/// Parts that run in the same folder do not meet: "-3-of-8".
+/// Ending of the name of a part's folder, so that parts do not share one: "-3-of-8".
 std::string own_name(const Sweep& sweep) {
   return sweep.part ? "-" + std::to_string(sweep.part->number) + "-of-" + std::to_string(sweep.part->count) : "";
 }
@@ -127,7 +127,7 @@ int sweep(const Options& options) {
     what = read_sweep(options.scene, overrides(options));
     what.part = part;
   } catch (...) {
-    // What stops one process usually stops all: only one of them reports it.
+    // An error that stops one process usually stops all: only one of them reports it.
     if (together && leads)
       reject_all(*together);
     else if (together && rejected(*together))

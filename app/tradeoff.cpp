@@ -1,4 +1,4 @@
-// pintle tradeoff: the cost of accuracy, for one scene and the quantities that matter to its user.
+// pintle tradeoff: the cost of accuracy, for one scene and chosen quantities.
 #include "framework/study/tradeoff/tradeoff_question.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Chains, ladders and grids of links of up to 10⁵ bodies: an acceleration, a Newton step of the implicit scheme
 // (tangent, factorization, solution) and a solution alone; bytes per body; how the time grows with the bodies.
-// At 1000 links Newton's step beside the same with Eigen's SparseLU on the same matrix, turn about: `ratio` is
-// the median of ours over the median of that.
+// At 1000 links, Newton's step alternates with the same step by Eigen's SparseLU on the same matrix: `ratio` is the median of our times
+// over the median of those.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <time.h>
@@ -28,7 +28,7 @@ struct Mechanism {
   State state;  ///< at rest
 };
 
-/// Rigid links between nodes of a plane, all that meet at a node pinned together there.
+/// Rigid links between nodes in a plane; all links that meet at a node are pinned together.
 class Truss {
  public:
   explicit Truss(std::vector<Vector2d> nodes) : nodes_(std::move(nodes)), pinned_(nodes_.size(), -1) {}
@@ -67,7 +67,7 @@ class Truss {
 
  private:
   std::vector<Vector2d> nodes_;
-  std::vector<int> pinned_;  ///< a marker there
+  std::vector<int> pinned_;  ///< a marker at each node
   std::vector<double> q_;
   System system_;
 };
@@ -114,7 +114,7 @@ Mechanism grid(long links) {
       nodes.push_back(size * Vector2d(x + 0.2 * std::sin(0.9 * y), -y + 0.2 * std::sin(0.8 * x)));
     }
   Truss truss(nodes);
-  for (std::size_t j = 0; j <= side; ++j) truss.fix(j);  // hung from its upper edge
+  for (std::size_t j = 0; j <= side; ++j) truss.fix(j);  // suspended at its upper edge
   const std::size_t row = side + 1;
   for (std::size_t i = 1; i <= side; ++i)
     for (std::size_t j = 0; j <= side; ++j) {
@@ -133,7 +133,7 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-/// Of the processor, by this thread: others on the machine cost little of it.
+/// Processor time of this thread, which other programs on the machine affect little [s].
 template <class F>
 double seconds(F f) {
   const auto now = [] {
@@ -151,7 +151,7 @@ double in_use() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// Medians by what was measured, kind and bodies, for the summaries at the end.
+/// Medians by measurement, kind and number of bodies, for the summaries at the end.
 std::map<std::string, std::vector<std::pair<double, double>>> measured;
 
 void Acceleration(benchmark::State& bench, const std::string& kind) {
@@ -177,7 +177,7 @@ void Acceleration(benchmark::State& bench, const std::string& kind) {
   bench.SetLabel(eq.schur.solver());
 }
 
-/// What a Newton step of generalised-α does at a state, h = 1 ms.
+/// A Newton step of generalised-α at a state, h = 1 ms.
 struct Newton {
   explicit Newton(Mechanism made)
       : m(std::move(made)), eq(m.system), tangent(m.system), kkt(m.system, eq, tangent), J(tangent.places().size()) {
@@ -234,7 +234,7 @@ void NewtonStep(benchmark::State& bench, const std::string& kind) {
   bench.SetLabel(newton.kkt.solver());
 }
 
-/// The same matrix by Eigen's SparseLU: pattern analysed once, values put in their places, factored, solved.
+/// The same matrix by Eigen's SparseLU: the pattern is analysed once; then values are inserted, factored and solved.
 class Theirs {
  public:
   Theirs(const System& system, const Equations& eq, const Tangent& tangent) : n_(system.n()) {

@@ -1,7 +1,7 @@
-// What contacts of profiles cost beside clearance pins: a hundred discs in bearings, in round holes, on floors and in square holes of the
-// ground. One evaluation of the equations with all pressed and with all open, and a run in which all fall and bounce, by its steps. `ratio`
-// is of what they take over what the pins do, both in this process, turn about: instructions where the processor lets programs count
-// them, else time. Where it does not, `valgrind --tool=callgrind` counts those of `work_of_contacts` and `work_of_pins`.
+// Cost of contacts of profiles compared with clearance pins: a hundred discs in bearings, in round holes, on floors and in square holes of
+// the ground. One evaluation of the equations with all contacts pressed and with all open, and a run in which all discs fall and bounce,
+// per step. `ratio` is their cost over that of the pins, both measured alternately in this process: instructions if programs may count
+// them, otherwise time. If not, `valgrind --tool=callgrind` counts those of `work_of_contacts` and `work_of_pins`.
 #include <benchmark/benchmark.h>
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
@@ -22,7 +22,7 @@ namespace {
 
 using namespace pintle;
 
-/// Instructions of this process in user space, or nanoseconds of its thread where the kernel does not let it count.
+/// Instructions of this process in user space, or nanoseconds of its thread if the kernel does not let it count.
 class Work {
  public:
   Work() {
@@ -62,7 +62,7 @@ struct Hanging {
   Model model;
   State start;
 };
-/// n discs of 9.5 mm side by side, each `off` above its wall, below 0: in it [m].
+/// n discs of 9.5 mm side by side, each `off` above its wall [m]; negative: overlapping it.
 Hanging hanging(const std::string& how, int n, double off) {
   const bool pins = how == "pins";
   const auto pair = [](double x, double y) { return "[" + std::to_string(x) + ", " + std::to_string(y) + "]"; };

@@ -1,6 +1,6 @@
 // The slider-crank of the paper with a coupler that bends: one second at 150 rad/s with ideal
-// joints, 0.05 s with a clearance of 0.01 mm at the gudgeon pin. The coupler is a beam of 20
-// elements with so many shapes, or a bar meshed into so many freedoms with 8 shapes.
+// joints, 0.05 s with a clearance of 0.01 mm at the gudgeon pin. The coupler is a beam of 20 elements with a given number of shapes, or a
+// bar meshed with a given number of freedoms and 8 shapes.
 //   run        until the end; `steps`, `evaluations` and the highest frequency [Hz], which sets the
 //              steps of explicit integration; `build_s`: meshing, modes and assembly, once
 //   evaluate   one evaluation of the equations of motion

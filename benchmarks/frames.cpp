@@ -1,5 +1,5 @@
 // A frame of one flexible plate of six-node triangles with 8 shapes: its fields alone, fields and
-// files together, and what is made ready once before the first. The argument is about the number of
+// files together, and the preparation before the first frame. The argument is about the number of
 // nodes; `MB` is the size of the body's file.
 //   bench_frames --benchmark_repetitions=5
 #include <benchmark/benchmark.h>
@@ -30,7 +30,7 @@ struct Plate {
 
 /// 1 m × 0.1 m, ten times as many cells along as across.
 Scene scene_of(double nodes) {
-  // A cell of the grid is two triangles and brings four nodes.
+  // A cell of the grid is two triangles and adds four nodes.
   const int across = std::max(1, static_cast<int>(std::lround(std::sqrt(nodes / 40))));
   return read_scene_text(
       "bodies:\n  plate:\n    plate: {thickness: 10 mm, young: 200 GPa, poisson: 0.3, "
@@ -42,7 +42,7 @@ Scene scene_of(double nodes) {
 
 Plate::Plate(double nodes) : scene(scene_of(nodes)), body(elastic_body(scene, scene.bodies[0])) {
   modes.shapes.resize(body.model.N(), shapes);
-  for (int i = 0; i < body.mesh.x.cols(); ++i)  // waves across, and how the sections turn with them
+  for (int i = 0; i < body.mesh.x.cols(); ++i)  // transverse waves, with the rotation of the sections
     for (int k = 0; k < shapes; ++k) {
       const double wave = (k + 1) * std::numbers::pi, x = body.mesh.x(0, i), y = body.mesh.x(1, i);
       modes.shapes(2 * i, k) = -(y - 0.05) * wave * std::cos(wave * x);

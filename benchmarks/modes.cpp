@@ -1,8 +1,7 @@
-// The lowest 20 modes of a free plane link (steel, 1 m × 0.1 m × 10 mm, 6-node triangles): ours,
-// with its Sturm check, against Spectra's shift-invert Lanczos iteration on a factor of the same
-// kind of the same matrix, which checks nothing. Both in this process, turn about; ratios are
-// medians of ours over medians of Spectra's, and count everything from K and M to pairs. `*Alone`
-// are for peak memory, which is a process's: one filter, one process.
+// The lowest 20 modes of a free plane link (steel, 1 m × 0.1 m × 10 mm, 6-node triangles): our solver with its Sturm check against
+// Spectra's shift-invert Lanczos iteration, without a check, on the same kind of factor of the same matrix. Both run alternately in this
+// process; ratios are medians of our times over Spectra's, for all work from K and M to pairs. `*Alone` measure peak memory, so run each in
+// a process of its own, with a filter.
 //   bench_modes --benchmark_filter=Modes/200000
 //   bench_modes --benchmark_filter=OursAlone/1000000
 #include <Spectra/SymGEigsShiftSolver.h>
@@ -31,8 +30,7 @@ using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
 
 constexpr int pairs = 20;
-// Spectra's advice for symmetric problems is at least twice the pairs; 41 needs the fewest solves
-// of 41, 60, 80.
+// Spectra recommends at least twice the number of pairs for symmetric problems; of 41, 60 and 80, 41 needs the fewest solves.
 constexpr int lanczos_vectors = 2 * pairs + 1;
 constexpr double tolerance = 1e-9;
 
@@ -71,7 +69,7 @@ struct Link {
   Sparse K, M;
   Cost meshing, assembly;
 };
-/// `freedoms`: about as many; ten times as long as it is high.
+/// A mesh with about `freedoms` freedoms, ten times as long as it is high.
 Link link_of(double freedoms) {
   Link link;
   const int high = static_cast<int>(std::lround(std::sqrt(freedoms / 80)));
@@ -90,7 +88,7 @@ Link link_of(double freedoms) {
   return link;
 }
 
-/// A⁻¹ by our factor, for Spectra, which gives the shift at its construction.
+/// A⁻¹ by our factor, for Spectra, which sets the shift when it is constructed.
 class Inverse {
  public:
   using Scalar = double;
@@ -150,7 +148,7 @@ EigenPairs by_us(const Link& link, bool check = true) {
   return eigen_lowest(link.K, link.M, options);
 }
 
-/// Largest ‖Kφ − λMφ‖/‖Kφ‖ of the elastic ones.
+/// Largest ‖Kφ − λMφ‖/‖Kφ‖ of the elastic modes.
 double worst_residual(const Link& link, const VectorXd& lambda, const MatrixXd& shapes) {
   double worst = 0;
   for (Index j = 3; j < lambda.size(); ++j) {
@@ -189,7 +187,7 @@ BENCHMARK(Modes)->Arg(20'000)->UseManualTime()->Iterations(7)->Unit(benchmark::k
 BENCHMARK(Modes)->Arg(200'000)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(Modes)->Arg(1'000'000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 
-/// The parts: a factorisation, a count, solves by columns.
+/// The parts of the work: a factorization, a Sturm count, solves by number of columns.
 void Parts(benchmark::State& bench) {
   const Link link = link_of(static_cast<double>(bench.range(0)));
   const double scale = link.K.diagonal().sum() / link.M.diagonal().sum();

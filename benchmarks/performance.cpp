@@ -1,8 +1,8 @@
 // Error against time for every method of the scene language, over decades of tolerance, against hand-written models.
-//   performance_page           runs all, writes docs/performance.md and docs/performance/*.svg
+//   performance_page           runs all and writes docs/performance.md and docs/performance/*.svg
 //   performance_page FILE      the same with a section on many links, from what
 //                              bench_chains --benchmark_out=FILE --benchmark_out_format=json  has written
-//   performance_page --quick   short runs at two tolerances; returns 1 if one fails or errs more than it should
+//   performance_page --quick   short runs at two tolerances; returns 1 if one fails or its error is too large
 #include "benchmarks/performance.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ struct Work {
   bool usable() const { return trouble.empty() && error > 0 && std::isfinite(error); }
 };
 
-/// Time of one evaluation of the clearance oracle's right-hand side, what all times are measured by [s].
+/// Time of one evaluation of the clearance oracle's right-hand side, the unit of all times [s].
 double yardstick() {
   const pintle_oracle::Params params;
   pintle_oracle::State state = pintle_oracle::start(params);
@@ -67,8 +67,8 @@ const Work* before(const std::vector<Work>& all, std::size_t k) {
   return nullptr;
 }
 
-/// Every method at every tolerance, turn about, so that what else the machine does falls on all alike. A
-/// pair whose run takes long is run less often.
+/// Runs every method at every tolerance alternately, so that other load of the machine affects all equally. A pair whose run takes long is
+/// run less often.
 std::vector<Work> measure(const Problem& p, const std::vector<std::string>& methods, bool quick) {
   struct Ready {
     Scene scene;
@@ -141,7 +141,7 @@ std::vector<std::string> methods_of(const std::vector<Work>& all) {
   return out;
 }
 
-/// log10 of the time a method needs for an error, between the two runs that enclose it; none if no two do.
+/// log10 of the time a method needs for an error, interpolated between the two runs that enclose it; nothing if none do.
 std::optional<double> time_for(const std::vector<Work>& all, const std::string& method, double error) {
   const double wanted = std::log10(error);
   const Work* before = nullptr;
@@ -175,7 +175,7 @@ void plot(const Problem& p, const std::vector<Work>& all, double unit) {
   paper::figure("../performance/" + p.name, {time, work});
 }
 
-/// What the numbers say, in sentences.
+/// The results in sentences.
 std::string said(const std::vector<Work>& all) {
   std::string out;
   for (const double error : {1e-3, 1e-5, 1e-7, 1e-9}) {
@@ -195,7 +195,7 @@ std::string said(const std::vector<Work>& all) {
   }
   for (const Work& w : all)
     if (!w.trouble.empty()) out += printed("- %s at %.0e: %s.\n", w.method.c_str(), w.tolerance, w.trouble.c_str());
-  std::string chosen;  // a reason begins with the name of what it chose
+  std::string chosen;  // a reason begins with the name of the chosen method
   for (const Work& w : all) {
     const std::string name = w.reason.substr(0, w.reason.find(','));
     if (w.method == "auto" && name != chosen) out += printed("- auto at %.0e: ", w.tolerance) + w.reason + ".\n";
@@ -246,7 +246,7 @@ int judge(const Problem& p, const std::vector<Work>& all) {
     for (const Work& w : all)
       if (w.method == method) (loose ? tight : loose) = &w;
     if (!loose || !tight) continue;  // one tolerance shows no fall
-    // Global errors stay proportional to the local ones; how much larger they are is the mechanism's own sensitivity.
+    // Global errors are proportional to local ones; the factor depends on the sensitivity of the mechanism.
     const bool holds = loose->trouble.empty() && tight->trouble.empty() && loose->error < 1 &&
                        (tight->error < loose->error || tight->error < tight->tolerance);
     std::cout << (holds ? "ok    " : "FALSE ") << p.name << " " << method
@@ -271,7 +271,7 @@ int main(int argc, char** argv) try {
   }
   const auto known = pintle::choices("run", "method");
   std::vector<std::string> methods(known.begin(), known.end());
-  std::erase(methods, "moreau");  // which has no tolerance
+  std::erase(methods, "moreau");  // it has no tolerance
   const double unit = yardstick();
   std::ostringstream page;
   page << head << printed("- One evaluation of the oracle took %.0f ns.\n", 1e9 * unit);

@@ -39,7 +39,7 @@ double apart(const Second& a, const Second& b, double until) {
   return worst;
 }
 
-// What the defaults take on other paths of the same chaos.
+// Cost of the default settings on other trajectories of the same chaotic motion.
 std::string spread() {
   constexpr int paths = 9, middle = paths / 2;
   std::vector<double> seconds, impacts;

@@ -17,7 +17,7 @@ double seconds_of(const nlohmann::json& entry) {
   return entry.at("real_time").get<double>() * (unit == "ns" ? 1e-9 : unit == "us" ? 1e-6 : unit == "ms" ? 1e-3 : 1);
 }
 
-/// What the benchmark has counted, beside what the library itself writes.
+/// The counters of the benchmark, without the fields that the library itself writes.
 std::string counters_of(const nlohmann::json& entry) {
   static const std::vector<std::string> own{
       "family_index", "per_family_instance_index", "repetitions", "repetition_index", "threads", "iterations", "real_time", "cpu_time"};

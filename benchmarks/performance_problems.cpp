@@ -59,7 +59,7 @@ Problem ideal_slider_crank(bool quick) {
   return p;
 }
 
-/// The clearance oracle's run; its impacts and how well it knows its end are added up.
+/// The clearance oracle's run; adds its impacts to `impacts` and raises `warning` to the uncertainty of its final angle [rad].
 Start clearance_start(double speed, int& impacts, double& warning) {
   SliderCrank o;
   o.clearance = 5e-4, o.restitution = 0.9, o.until = 0.02, o.outputs = 1, o.speed = speed;

@@ -1,5 +1,5 @@
 // The rigid slider-crank against a hand-written minimal-coordinate model of the same mechanism
-// (tests/oracles), both in this process, turn about: `ratio` is the median of ours over the median of its.
+// (tests/oracles), both run alternately in this process: `ratio` is the median of our times over the median of its.
 //   Acceleration    one evaluation
 //   ClearanceRun    a second at the same scheme and tolerance
 //   EqualError      a second at the tolerances at which both leave the same error in the crank's angle at the end
@@ -161,11 +161,11 @@ struct WorkPrecision {
       double angle = 0;
       for (int repeat = 0; repeat < 3; ++repeat) time.push_back(seconds([&] { angle = solve(exponent); }));
       const double error = std::abs(angle - truth);
-      while (!points.empty() && points.back().error <= error) points.pop_back();  // one that was lucky
+      while (!points.empty() && points.back().error <= error) points.pop_back();  // its small error was chance
       points.push_back({error, median(time)});
     }
   }
-  /// Time for an error, between the two runs that enclose it; logarithms of both are taken as linear. NaN outside.
+  /// Time for an error, interpolated linearly in the logarithms between the two runs that enclose it. NaN outside.
   double time(double error) const {
     for (std::size_t i = 1; i < points.size(); ++i) {
       const auto &a = points[i - 1], &b = points[i];

@@ -1,8 +1,8 @@
-// Trades error against time in four mechanisms and writes docs/tradeoff.md and docs/tradeoff/*.svg: what
+// Trades error against time in four mechanisms and writes docs/tradeoff.md and docs/tradeoff/*.svg: the results of
 //   pintle tradeoff examples/studies/trade_*.yaml
-// says of each, on one page.
-//   tradeoff_page                 the studies as they stand: some minutes; on an idle machine
-//   tradeoff_page --budget 20     each study in so many seconds, for a look
+// on one page.
+//   tradeoff_page                 the unchanged studies: some minutes; use an idle machine
+//   tradeoff_page --budget 20     each study within this many seconds, for a preview
 #include <unistd.h>
 
 #include <cstring>

@@ -24,8 +24,8 @@ struct LuGre {
 /// With s = exp(−(v/v_s)²), the degree to which the surfaces stick:
 ///   ż = s v + (1 − s)(μ sgn v − σ0 z)/σ1,   f = clip(σ0 z + σ1 ż, μ + (μ_s − μ) d) + σ2 v,
 ///   ḋ = (s − d)/τ while d grows, (s − d) σ0/σ1 while it falls.
-/// States: the deflection z [m] and the dwell state d, 0 to 1, which describes the growth of the holding force during sticking. Source:
-/// Gonthier, McPhee, Lange and Piedboeuf (2004); their sign function is smoothed, which 1 − s does in the plane.
+/// States: the deflection z [m] and the dwell state d, 0 to 1: the holding force grows with it during sticking. Source: Gonthier, McPhee,
+/// Lange and Piedboeuf (2004); they smooth the sign function, which the factor 1 − s does here.
 struct Gonthier {
   double mu = 0;           ///< while sliding, > 0, –
   double mu_static = 0;    ///< after long rest, ≥ mu, –
@@ -61,8 +61,8 @@ SteadyFriction steady_friction(const Gonthier&, double speed);
 
 /// The σ1 for critical damping of a body that its own weight presses on and only bristles hold: 2 √(σ0/g), g = 9.81 m/s² [s/m].
 double critical_damping(double stiffness);
-/// The largest v_d for which the damping of undeflected bristles is at most μ at any speed: √(2e) μ/σ1 [m/s]. This limits the friction when
-/// a contact begins during sliding. Up to four times this value would still be passive.
+/// The largest v_d for which the damping of undeflected bristles is at most μ at any speed: √(2e) μ/σ1 [m/s]. This limits the friction of a
+/// contact that begins while sliding. Up to four times this value would still be passive.
 double gentle_damping_speed(double mu, double damping);
 
 }  // namespace pintle

@@ -19,7 +19,7 @@ namespace {
 // w: 0 … n − 1, z: n … 2n − 1, z₀: 2n.
 class Lemke {
  public:
-  enum class Ties { largest_pivot, ordered };  ///< the first loses fewer digits; the second cannot cycle
+  enum class Ties { largest_pivot, ordered };  ///< largest_pivot loses fewer digits; ordered cannot cycle
   /// @param least_pivot  relative to the largest entry of the column; smaller entries are rounding
   Lemke(const MatrixXd& M, const VectorXd& q, const VectorXd& d, Ties ties, double least_pivot)
       : n_(q.size()),
@@ -52,7 +52,8 @@ class Lemke {
   Index rhs() const { return 2 * n_ + 1; }
   Index& basic(Index row) { return basic_[static_cast<std::size_t>(row)]; }
 
-  // A difference of nearly equal numbers is rounding and is set to 0; otherwise it would break the ties of degenerate problems at random.
+  // Sets differences of nearly equal numbers, which are rounding, to 0; otherwise they would break the ties of degenerate problems at
+  // random.
   void pivot(Index row, Index enters) {
     constexpr double rounding = 4e-15;
     table_.row(row) /= table_(row, enters);
@@ -67,7 +68,7 @@ class Lemke {
     basic(row) = enters;
   }
 
-  // The row that z₀ leaves from first: the one that needs the largest z₀; among equal rows the last.
+  // The first row to leave the basis, for z₀ to enter: the one that needs the largest z₀; among equal rows the last.
   Index first() {
     constexpr double tie = 1e-12;
     const VectorXd ratio = table_.col(rhs()).cwiseQuotient(-table_.col(z0()));
@@ -99,7 +100,7 @@ class Lemke {
     return false;
   }
 
-  // z₀ is 0 within rounding, as where forces must balance but cannot do so in all digits.
+  // Whether z₀ is 0 within rounding, as when forces balance only within rounding.
   bool is_solved() {
     constexpr double rounding = 1e-12;
     for (Index i = 0; i < n_; ++i)
@@ -122,10 +123,10 @@ class Lemke {
   double least_pivot_;
 };
 
-// Checks a result: pivots lose digits, and the point at which the method ends on a ray need not be a solution.
+// Checks a result, because pivots lose digits and a point at which the method ends on a ray need not be a solution.
 bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
   // Each of some hundred pivots loses a few units of 1e-16 of the largest number in the tableau, which may be 1e6 times q: only half of the
-  // digits of q are certain. The sum of n products in a row is known to n roundings of its terms.
+  // digits of q are certain. The sum of n products in a row is accurate to n roundings of its terms.
   constexpr double enough = 1e-8, rounding = 1e-13;
   if (!z.allFinite()) return false;
   const VectorXd w = M * z + q, none = enough * q.cwiseAbs().maxCoeff() + (rounding * (M.cwiseAbs() * z)).array();
@@ -144,7 +145,7 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
   if (q.size() == 0) return q;
   VectorXd d = VectorXd::Ones(q.size());
   for (int way = 0; way < ways; ++way) {
-    const double least_pivot = way < ways / 2 ? 1e-12 : 1e-15;  // the second for bodies wedged at an angle of its root
+    const double least_pivot = way < ways / 2 ? 1e-12 : 1e-15;  // 1e-15: for bodies wedged at an angle of its square root
     for (const Lemke::Ties ties : {Lemke::Ties::largest_pivot, Lemke::Ties::ordered})
       if (auto z = Lemke(M, q, d, ties, least_pivot).solve(); z && solves(M, q, *z)) return z;
     for (Index i = 0; i < d.size(); ++i) {
@@ -157,11 +158,12 @@ std::optional<VectorXd> solve_complementarity(const MatrixXd& M, const VectorXd&
 
 namespace {
 
-// Removes from W = Jᵀ A J and c = Jᵀ v the directions of forces that hardly move anything, such as the one along a row of discs between
-// two walls that is straight to an angle of 1e-5. @returns false if there are none
+// Removes from W = Jᵀ A J and c = Jᵀ v the directions of forces that hardly move anything, such as the one along a row of discs between two
+// walls, straight within an angle of 1e-5. @returns false if there are none
 bool leave_out_faint(MatrixXd& W, VectorXd& c) {
-  // With a diagonal of 1, W is known to 1e-15 to 1e-13: rounding of sums, and the loss in the factor of the joints. An eigenvalue of 1e-10, and
-  // a force along it, is then known to a thousandth. A row of bodies that bends by 1e-5 has such an eigenvalue: it is the angle squared.
+  // Scaled to a diagonal of 1, W is accurate to 1e-15 to 1e-13: rounding of sums, and the loss in the factor of the joints. So an
+  // eigenvalue of 1e-10, and the force along it, is accurate to a thousandth. A row of bodies bent by 1e-5 has this eigenvalue, the square
+  // of the angle.
   constexpr double faint = 1e-10;
   const VectorXd unit = W.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(unit.asDiagonal() * W * unit.asDiagonal());
@@ -179,7 +181,7 @@ bool leave_out_faint(MatrixXd& W, VectorXd& c) {
 // finds the impulses of an impact [AnitescuPotra1997, theorem 1].
 struct Unilateral {
   VectorXd x;
-  double greatest;  ///< largest entry of z; 1: the force that alone would stop the fastest of c
+  double greatest;  ///< largest entry of z; 1: the force that alone would stop the largest of c
 };
 std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
   const auto n = static_cast<Index>(contacts.size());
@@ -227,10 +229,9 @@ std::optional<Unilateral> solve_unilateral(std::span<const UnilateralContact> co
 
 }  // namespace
 
-// If more contacts are closed than the motion of the bodies can distinguish, or nearly so, rounding may leave the problem without a solution
-// or with enormous forces.
+// If contacts are redundant or nearly so, rounding may leave the problem without a solution or with very large forces.
 std::optional<VectorXd> unilateral_forces(std::span<const UnilateralContact> contacts, const MatrixXd& W, const VectorXd& c) {
-  // Forces of 1e8 that cancel to 1 leave a rounding of 1e-8, which `solves` allows. Larger ones are unknown.
+  // Forces of 1e8 that cancel to 1 leave a rounding of 1e-8, which `solves` allows. Larger ones are unreliable.
   constexpr double great = 1e8;
   const auto found = solve_unilateral(contacts, W, c);
   if (found && found->greatest <= great) return found->x;

@@ -54,7 +54,7 @@ std::vector<Vector2d> periodic_bends(const std::vector<double>& h, const std::ve
   return out;
 }
 
-// For an open spline, the third derivative is continuous at its second and last but one points.
+// In an open spline, the third derivative is continuous at the second and at the last but one point.
 std::vector<Vector2d> open_bends(const std::vector<double>& h, const std::vector<Vector2d>& slope) {
   const std::size_t n = h.size() - 1;  // inner points
   std::vector<double> lower(n), diagonal(n), upper(n);
@@ -113,7 +113,7 @@ std::vector<double> SmoothCurve::inflections() const {
     if (!(root > 0)) continue;
     const double w = -(q + std::copysign(std::sqrt(root), q)) / 2;
     std::vector<double> here;
-    for (const double t : {p / w, w / r})  // at a knot it may be found from either side
+    for (const double t : {p / w, w / r})  // at a knot it may be found from both segments
       if (t > -at_knot * h && t < (1 + at_knot) * h) here.push_back(knots_[i] + std::clamp(t, 0.0, h));
     std::ranges::sort(here);
     out.insert(out.end(), here.begin(), here.end());
@@ -167,7 +167,7 @@ std::vector<double> CurveSpan::numbers() const {
 
 namespace {
 
-// Left turn along a curve that bends in one direction between the two: no step of a sixteenth of a segment turns back.
+// Angle of the left turn from `begin` along a curve that bends in one direction, in steps of a sixteenth of a segment.
 struct Turning {
   const SmoothCurve& curve;
   std::vector<double> s, turn;
@@ -183,7 +183,7 @@ struct Turning {
         s.push_back(next);
       }
   }
-  // The parameter at which this part of the whole turn is reached.
+  // The parameter at which this fraction of the whole turn is reached.
   double at_part(double part) const {
     const double wanted = part * turn.back();
     std::size_t i = 1;
@@ -196,7 +196,7 @@ struct Turning {
 }  // namespace
 
 std::vector<CurveSpan> spans_of(const std::shared_ptr<const SmoothCurve>& curve) {
-  constexpr double straight = 1e-6;  // [rad]; a smaller bend is rounding of its points
+  constexpr double straight = 1e-6;  // [rad]; a smaller bend is due to rounding of the points
   std::vector<double> cuts{0};
   for (const double s : curve->inflections())
     if (std::abs(Turning(*curve, cuts.back(), s).turn.back()) > straight) cuts.push_back(s);

@@ -72,7 +72,8 @@ Facing foot_facing(const CurveSpan& span, const Vector2d& m) {
   return {back ? low : high, true};
 }
 
-// The parameter of a where it faces b, a round span, both in a's axes, which are rotated by `turn` relative to b's; `from` is b's point.
+// The parameter of a at which it faces the round span b, in a's axes. These are rotated by `turn` relative to b's; `from` is a's origin in
+// b's axes.
 double foot_against(const CurveSpan& a, const CurveSpan& b, const Vector2d& from, double turn) {
   return foot(a, [&](double s) {
     const CurvePoint p = a.at(s);

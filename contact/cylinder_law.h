@@ -22,7 +22,7 @@ struct Cylinders {
 /// A published force law of cylinders.
 struct CylinderLaw {
   std::string_view name;                   ///< name in scene files
-  bool external;                           ///< its author gives it for two round cylinders as well
+  bool external;                           ///< its author also gives it for two round cylinders
   double least_clearance, most_clearance;  ///< clearances of a pin in a hole for which its author gives constants [m]
   DampedLaw (*law)(const Cylinders&);      ///< without damping
   std::string_view source;                 ///< author and year

@@ -15,8 +15,8 @@ ElasticForce elastic(const PowerForce& law, double depth) {
   return {force, force * depth / (law.n + 1), law.n * force / depth};
 }
 
-/// The root u ≥ 2 of u − ln u = L. The function is convex, so Newton converges to the root from above; after a step of 1e-8 the next would
-/// be rounding.
+/// The root u ≥ 2 of u − ln u = L. The function is convex, so Newton's method converges to the root from above; after a step of 1e-8 the
+/// next is only rounding.
 double logarithm_of_force(double L) {
   double u = L + std::log(L + std::log(L) + 1);
   for (;;) {

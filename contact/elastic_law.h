@@ -38,8 +38,8 @@ struct FoundationForce {
   double k;          ///< stiffness of the layer [N/m³] times length and radius [N/m]
   double clearance;  ///< ΔR [m]
 };
-/// Through given points, the first with zero depth and force, by cubics that rise wherever the points do (Fritsch and Butland 1984), with
-/// continuous slope; beyond the last point linear, with the slope there.
+/// Through given points, the first with zero depth and force, by monotone cubics (Fritsch and Butland 1984) with continuous slope; beyond
+/// the last point linear, with the slope there.
 struct ForceTable {
   struct Knot {
     double depth, force, slope, stored;  ///< [m], [N], [N/m], [J]
@@ -90,7 +90,7 @@ double restitution_of(const NormalLaw&, double mass);
 std::string stiffness_text(const NormalLaw&, int digits = 6);
 std::vector<std::pair<std::string, double>> constants_of(const NormalLaw&);
 
-/// Why the law is doubtful at a depth [m]; empty: it is not.
+/// Why the law is not reliable at a depth [m]; empty: it is.
 std::string range_warning(const NormalLaw&, double depth);
 
 }  // namespace pintle

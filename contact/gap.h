@@ -21,7 +21,7 @@ struct MovingPoint {
 /// A piece of a body's surface: an arc (a corner if its radius is 0), a straight line, or a span of a curve; in the axes of the point that
 /// carries it. Normals point out of the material; the surface runs with the material to its left.
 struct Piece {
-  double radius = 0;                                      ///< of an arc, < 0 where it is hollow; of a line or curve 0 [m]
+  double radius = 0;                                      ///< of an arc, < 0 if it is hollow; of a line or curve 0 [m]
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();       ///< of the arc; of a line its middle; of a curve 0 [m]
   double normal = 0;                                      ///< direction of the normal at the middle of the piece [rad]
   double half = std::numeric_limits<double>::infinity();  ///< half its extent: of an arc [rad], of a line [m]; infinite: a circle
@@ -36,7 +36,7 @@ double least_radius(const Piece&);
 /// Two pieces that may touch, not both straight, nor both hollow.
 struct PiecePair {
   Piece a, b;
-  /// How far a round piece can move from the middle of the hollow one that contains it [m]; negative where neither is hollow.
+  /// How far a round piece can move from the middle of the hollow one that contains it [m]; negative if neither is hollow.
   double clearance() const { return -(a.radius + b.radius); }
   bool hollow() const { return a.radius < 0 || b.radius < 0; }
   bool curved() const { return a.curve || b.curve; }
@@ -53,7 +53,7 @@ inline double bearing_radius(const PiecePair& pair) { return -pair.b.radius; }
 
 /// Contact point on a curve.
 struct OnCurve {
-  double curvature = 0;  ///< [1/m]; infinite: at the end of its range of directions, where it is touched as a corner
+  double curvature = 0;  ///< [1/m]; infinite: at the end of its range of directions, where it acts as a corner
   double at = 0;         ///< −1 where the span begins, 1 where it ends
   double per = 0;        ///< d(at)/d(length) [1/m]
 };
@@ -80,7 +80,7 @@ struct Gap {
 /// spins.
 struct Rolling {
   struct Part {
-    double across = 0, a = 0, b = 0;  ///< a length, or 1/length, where the others are angles or lengths
+    double across = 0, a = 0, b = 0;  ///< in `turning` [1/m], –, –; in on_a and on_b –, [m], [m]
     double of(double sideways, double w_a, double w_b) const { return across * sideways + a * w_a + b * w_b; }
   };
   Part turning;     ///< of n [rad/s]

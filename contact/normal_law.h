@@ -35,7 +35,7 @@ struct ImpactLaw {
 };
 /// All zero without contact, and at zero depth unless d > 0 and it approaches. Stored energy released while the force is limited to zero
 /// counts as lost.
-/// No allocation. @pre impact_rate > 0 where depth > 0
+/// No allocation. @pre impact_rate > 0 if depth > 0
 NormalForce evaluate(const ImpactLaw&, const Approach&);
 
 // Functions for other code: only this file and its implementation know the constants of a law.
@@ -45,7 +45,7 @@ double depth_storing(const ImpactLaw&, double energy);
 double stiffness_of_equal_energy(const ImpactLaw&, double depth);
 /// ∂f/∂δ of the elastic force at a depth > 0 [N/m].
 double stiffness_at(const ImpactLaw&, double depth);
-/// Its force begins with the jump d δ̇.
+/// Whether its force begins with the jump d δ̇.
 bool begins_with_jump(const ImpactLaw&);
 /// Ratio of its damping to its elastic force, at a rate [m/s] in a contact that began at impact_rate; 0 for a law whose damping does not
 /// depend on how the contact began.

@@ -54,7 +54,7 @@ std::vector<Stretch> stretches_of(const std::vector<PathPoint>& path, bool close
   return out;
 }
 
-// Left turn from one stretch to the next; distinguishes turning right back from going straight on.
+// Left turn from one stretch to the next; distinguishes a reversal from going straight on.
 double turn_between(const Stretch& a, const Stretch& b) { return std::remainder(b.leaves - a.arrives, 2 * pi); }
 
 Piece piece_of(const Stretch& s) {
@@ -257,7 +257,7 @@ Profile profile_through(const std::vector<Vector2d>& points, bool closed) {
 }
 
 Profile profile_along(std::vector<PathPoint> path, bool closed, double round) {
-  constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; over a smaller concave kink a contact continues
+  constexpr double smooth = 1e-9, kink = 1e-2;  // [rad]; a contact continues across a smaller concave kink
   if (path.size() < 2) wrong("it has fewer than two points; add points");
   const bool arcs = std::any_of(path.begin(), path.end(), [](const PathPoint& p) { return p.arc != 0; });
   if (closed && path.size() < 3 && !arcs) wrong("it is closed but has fewer than three points; add a point, or an arc");

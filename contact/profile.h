@@ -47,7 +47,7 @@ double area(const std::vector<Eigen::Vector2d>& polygon);
 /// Points along a piece or along all pieces, including both ends, arcs in steps of a few degrees [m].
 std::vector<Eigen::Vector2d> drawn(const Piece&);
 std::vector<Eigen::Vector2d> drawn(const Profile&);
-/// It is closed and encloses the material.
+/// Whether it is closed and encloses the material.
 bool solid(const Profile&);
 
 }  // namespace pintle

@@ -116,7 +116,7 @@ Natural<E> natural(const Matrix2d& x) {
   return {d.stretch * Q.transpose(), d.bend * Q.transpose(), d.shear * Q.transpose()};
 }
 
-/// Force per natural deformation: N per elongation, mean M per relative rotation, V per distance from the chord.
+/// Stiffness of the deformation modes: N per elongation, mean M per relative rotation, V per distance from the chord.
 struct Springs {
   double stretch, bend, shear;
 };

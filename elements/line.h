@@ -50,8 +50,8 @@ Square<E> stiffness(const E&, const Coords<E>&);
 /// axis has a position.
 template <LineElement E>
 Square<E> mass(const E&, const Coords<E>&);
-/// Half of the mass, and in beams half of ∫ρI ds, at each node. The rotary inertia of each half of the span is omitted: with it frequencies
-/// would converge at second order, without it at fourth.
+/// Half of the mass, and in beams half of ∫ρI ds, at each node. The rotary inertia of each half of the span is omitted: without it
+/// frequencies converge at fourth order, with it at second.
 template <LineElement E>
 Freedoms<E> lumped_mass(const E&, const Coords<E>&);
 /// G = ∫ ρA NᵀZᵀN ds. The rotation of the sections does not contribute.

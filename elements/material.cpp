@@ -23,7 +23,7 @@ void validate(const Isotropic& m) {
   require(m.poisson > -1 && m.poisson < 0.5, "poisson", m.poisson, "above −1 and below 0.5; take 0.4999 for a nearly incompressible solid");
 }
 
-// Tension along either axis gives elongation, whatever the other stress.
+// Requires a positive definite compliance in the 1–2 plane.
 void validate(const Orthotropic& m) {
   require(m.young_1 > 0, "young_1", m.young_1, "positive [Pa]");
   require(m.young_2 > 0, "young_2", m.young_2, "positive [Pa]");

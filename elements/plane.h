@@ -97,8 +97,8 @@ Eigen::Matrix<double, 2, E::points> stress_points(const E&, const Coords<E>& x);
 template <PlaneElementType E>
 Eigen::Matrix<double, 4, E::nodes> nodal_stress(const E&, const Stress<E>& s);
 
-/// Determinant of the Jacobian at each node [m²]. Zero at a corner of 180°, negative beyond that or where nodes run clockwise; if it is ≤ 0
-/// anywhere, the stress there, if not the stiffness, is meaningless.
+/// Determinant of the Jacobian at each node [m²]. Zero at a corner of 180°, negative at a larger angle or for clockwise nodes. Where it is
+/// ≤ 0, the stress is meaningless, and possibly the stiffness.
 template <PlaneElementType E>
 Eigen::Matrix<double, 1, E::nodes> nodal_jacobians(const E&, const Coords<E>& x);
 

@@ -48,7 +48,7 @@ Section measure(const TubeSection& s, double nu) {
   return {A, A * square(s.outer) * (1 + mm) / 16, kappa, s.outer / 2};
 }
 
-// κ for the middle lines of the walls: h is the distance between those of the flanges.
+// κ of the thin-walled section: h is the distance between the middle lines of the flanges.
 Section measure(const ISection& s, double nu) {
   require_size("I", "height", s.height);
   require_size("I", "width", s.width);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// The only place where files from other sources are opened.
+/// Only these functions open files from other sources.
 namespace pintle {
 
 /// Why a file is not read, and the remedy: "is a directory; name a file in it". Without its name.
@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> readable_folders(const std::filesystem::path&
 /// The path of a file named by a scene in `folder`, if with symbolic links followed it is in one of readable_folders(folder). Does not
 /// check whether it exists.
 /// @param named  relative to `beside`, or absolute
-/// @throws FileRefused  it is elsewhere (with the name, here)
+/// @throws FileRefused  it is elsewhere (this message contains the name)
 std::filesystem::path contained_file(const std::filesystem::path& named, const std::filesystem::path& beside,
                                      const std::filesystem::path& folder);
 inline std::filesystem::path contained_file(const std::filesystem::path& named, const std::filesystem::path& folder) {

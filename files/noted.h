@@ -5,13 +5,13 @@
 
 namespace pintle {
 
-/// Notes the files that this thread opens, or is about to name to another process, while it lives. One at a time in a thread.
+/// While it exists, records the files that this thread opens or passes by name to another process. One at a time in a thread.
 class FilesNoted {
  public:
   FilesNoted();
   ~FilesNoted();
   FilesNoted(const FilesNoted&) = delete;
-  /// As they were named, each once; some of contained_file need not be there.
+  /// The names as given, each once; those from contained_file need not exist.
   const std::vector<std::filesystem::path>& paths() const { return paths_; }
 
  private:

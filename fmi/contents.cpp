@@ -68,7 +68,7 @@ void choose_outputs(const Scene& scene, const std::vector<std::string>& wanted, 
   std::vector<std::string> names = wanted, known;
   if (names.empty())
     for (const SceneOutput& output : scene.outputs)
-      if (!output.place.key.starts_with("states.")) names.push_back(output.name);  // a PID controller of `states` is no choice
+      if (!output.place.key.starts_with("states.")) names.push_back(output.name);  // PID controllers were not chosen
   const bool all = names.empty();
   for (FmuVariable& v : variables)
     if (v.kind == FmuVariable::column) v.output = all, known.push_back(v.name);
@@ -80,7 +80,7 @@ void choose_outputs(const Scene& scene, const std::vector<std::string>& wanted, 
   }
 }
 
-/// The unit of each parameter that has one, as the scene with its values filled in has them: "1e-05 m".
+/// The unit of each parameter that has one, from the scene with its values filled in: "1e-05 m".
 std::map<std::string, std::string> parameter_units(const Scene& scene) {
   std::map<std::string, std::string> out;
   const Json said = Json::parse(scene.filled_in, nullptr, false);

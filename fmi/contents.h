@@ -6,10 +6,11 @@
 #include "framework/mechanism/model.h"
 #include "framework/scene/yaml/reader.h"
 
-/// A scene as a unit for co-simulation (FMU): what the exporter (app/fmu) puts into it and its shared library reads out of it.
+/// A scene as an FMU for co-simulation, called "unit" in messages: the data that the exporter (app/fmu) writes and its shared library
+/// reads.
 namespace pintle::fmi {
 
-/// A variable of the unit. Its value reference is its place in the list.
+/// A variable of the FMU. Its value reference is its index in the list.
 struct FmuVariable {
   enum Kind {
     time,
@@ -18,10 +19,10 @@ struct FmuVariable {
     column,     ///< of the trajectory
     happened,   ///< how often an event of the scene has acted
     contacts,   ///< how often a contact has begun
-    touching    ///< it has begun and not ended
+    touching    ///< whether a contact has begun and not ended
   } kind = time;
-  std::string name, unit = {};  ///< SI, as columns write it; empty: a number
-  std::string of = {};          ///< of a column its heading; of others the parameter, state, event or contact
+  std::string name, unit = {};  ///< SI, as in headings of columns; empty: a pure number
+  std::string of = {};          ///< for a column its heading; otherwise the name of the parameter, state, event or contact
   double start = 0;             ///< of parameters and inputs
   bool output = false;          ///< of columns
 };
@@ -29,7 +30,7 @@ struct FmuVariable {
 struct FmuContents {
   std::string title;
   std::string scene;  ///< its file, in resources/scene
-  std::string token;  ///< of what the unit is made of
+  std::string token;  ///< identifies the data from which the FMU is made
   Overrides set;
   std::vector<FmuVariable> variables;
   double until = 0, tolerance = 0, every = 0;  ///< of the scene's run
@@ -37,14 +38,14 @@ struct FmuContents {
 
 inline constexpr const char* contents_file = "pintle.json";  ///< in resources
 
-/// What the importer of a model may set and see.
-/// @param inputs, outputs  by name; none: all that can be one, and the scene's `outputs`, or all columns where it has none
-/// @throws SceneError  one of them is none, with the nearest name
+/// The variables that an importer may set and read.
+/// @param inputs, outputs  names; if there are none: all possible inputs, and the scene's `outputs`, or all columns if it has none
+/// @throws SceneError  one of the names is no input or output; suggests the nearest name
 std::vector<FmuVariable> variables_of(const Scene&, const Model&, const std::vector<std::string>& inputs,
                                       const std::vector<std::string>& outputs);
 
 std::string text_of(const FmuContents&);
-/// @throws std::runtime_error  it is no such text
+/// @throws std::runtime_error  the text is not from text_of
 FmuContents contents_of(const std::string& text);
 
 }  // namespace pintle::fmi

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The C interface of FMI 3.0 for co-simulation, written after the standard (fmi-standard.org, version 3.0.1, sections 2.2, 2.3 and 4.2): names,
-/// types and the order of arguments are those that an importer calls by.
+/// The C interface of FMI 3.0 for co-simulation, with names, types and order of arguments as in the standard (fmi-standard.org, version
+/// 3.0.1, sections 2.2, 2.3 and 4.2).
 extern "C" {
 
 using fmi3Instance = void*;
@@ -41,5 +41,5 @@ using fmi3UnlockPreemptionCallback = void (*)();
 
 }  // extern "C"
 
-/// What an importer finds in the shared library; nothing else of it is to be seen.
+/// Exports a function of the shared library; all other symbols are hidden.
 #define FMI3_EXPORT extern "C" __attribute__((visibility("default")))

@@ -1,4 +1,4 @@
-// The C interface: what is done for an importer. What is not done stands in refused.cpp.
+// The C interface: the supported functions. Those not supported are in refused.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace pintle::fmi;
 
 constexpr std::array categories{"logStatusError", "logStatusWarning", "logEvents"};
 
-/// The arrays of a call that gets or sets; n of each.
+/// Checks the arrays of a call that gets or sets n values.
 void require_arrays(const fmi3ValueReference* references, std::size_t n, const void* values, std::size_t n_values) {
   if (n != n_values) throw FmuError(std::to_string(n) + " variables, all of them scalar, but " + std::to_string(n_values) + " values");
   if (n > 0 && (!references || !values)) throw FmuError("an array is NULL");
@@ -167,7 +167,7 @@ FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* stat
   return safely(instance, "fmi3GetFMUState", [&](FmuHandle& h) {
     auto now = std::make_unique<FmuState>(h.instance->state());
     if (written(state))
-      *static_cast<FmuState*>(*state) = std::move(*now);  // one that the importer has already
+      *static_cast<FmuState*>(*state) = std::move(*now);  // the importer passes an existing state to be overwritten
     else
       *state = now.release();
   });

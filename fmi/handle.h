@@ -9,21 +9,21 @@
 
 namespace pintle::fmi {
 
-/// What an importer holds by a fmi3Instance.
+/// The object to which an importer's fmi3Instance points.
 struct FmuHandle {
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
   bool logs_events;
   std::string name;
   std::unique_ptr<FmuInstance> instance = nullptr;
-  fmi3Status worst = fmi3OK;  ///< of the call that goes on
+  fmi3Status worst = fmi3OK;  ///< of the current call
 
   void say(fmi3Status status, const char* category, const std::string& message) noexcept {
     if (log) log(environment, status, category, message.c_str());
   }
 };
 
-/// act(handle) for a function of the C interface: no exception leaves it, and what went wrong is logged.
+/// Calls act(handle) for a function of the C interface: catches all exceptions and logs their messages.
 template <class Act>
 fmi3Status safely(fmi3Instance instance, const char* function, Act act) noexcept {
   if (!instance) return fmi3Error;
@@ -37,7 +37,7 @@ fmi3Status safely(fmi3Instance instance, const char* function, Act act) noexcept
     } catch (const std::exception& error) {
       handle.say(fmi3Error, "logStatusError", handle.name + ": " + function + ": " + error.what());
     }
-  } catch (...) {  // not even memory for the message
+  } catch (...) {  // not enough memory for the message
     handle.say(fmi3Error, "logStatusError", "not enough memory");
   }
   return fmi3Error;

@@ -30,7 +30,7 @@ Scene scene_of(const FmuContents& contents, const std::filesystem::path& resourc
   return scene;
 }
 
-/// Where a variable is among names.
+/// Index of a variable among names.
 std::size_t found(const std::string& of, const std::vector<std::string>& names) {
   const auto at = std::ranges::find(names, of);
   if (at == names.end())
@@ -50,7 +50,7 @@ FmuInstance::FmuInstance(FmuContents contents, std::filesystem::path resources, 
       tell_(std::move(tell)) {
   for (std::size_t v = 0; v < contents_.variables.size(); ++v)
     if (contents_.variables[v].kind == FmuVariable::input) input_.push_back(v);
-  scene_of(contents_, resources_, {std::vector<std::optional<double>>(contents_.variables.size()), {}, {}});  // it is there and can be read
+  scene_of(contents_, resources_, {std::vector<std::optional<double>>(contents_.variables.size()), {}, {}});  // throws if not readable
   reset();
 }
 
@@ -87,7 +87,7 @@ std::shared_ptr<const FmuPrepared> FmuInstance::prepared_for(const FmuSettings& 
 
 void FmuInstance::begin(const SavedState* from) {
   Listeners listeners;
-  listeners.rows = [](const Table&, const Table&, const std::vector<Impact>&, const std::vector<Happening>&) {};  // they are not kept
+  listeners.rows = [](const Table&, const Table&, const std::vector<Impact>&, const std::vector<Happening>&) {};  // rows are not kept
   simulation_ = std::make_unique<Simulation>(prepared_->scene, prepared_->model, prepared_->assembly, listeners, from);
   tally_ = {};
   tally_.look(contents_.variables, prepared_->model.system.contact_names, simulation_->happenings(), simulation_->impacts());
@@ -151,7 +151,7 @@ void FmuInstance::apply_inputs() {
       simulation_->set(static_cast<int>(prepared_->place[v]), inputs_[v]), applied_[v] = inputs_[v], row_.clear();
 }
 
-/// Where the run ends before the importer does.
+/// Called if the run ends before the importer ends it.
 void FmuInstance::end_here() {
   row();
   const Run run = simulation_->finish();
@@ -233,7 +233,7 @@ double FmuInstance::number(std::uint32_t index) {
   if (v.kind == FmuVariable::parameter) {
     if (settings_.values[index]) return *settings_.values[index];
     if (std::ranges::none_of(settings_.values, [](const auto& value) { return value.has_value(); })) return v.start;
-    return prepared_for(settings_)->scene.parameters[prepared_->place[index]].second;  // it may follow from one that is set
+    return prepared_for(settings_)->scene.parameters[prepared_->place[index]].second;  // it may depend on a parameter that is set
   }
   if (v.kind != FmuVariable::column)
     throw FmuError("\"" + v.name + "\" is no Float64 but counts; ask for it as modelDescription.xml types it");

@@ -31,13 +31,13 @@ struct FmuSettings {
   bool operator==(const FmuSettings&) const = default;
 };
 
-/// A scene prepared for a run, with the places of the variables in it.
+/// A scene prepared for a run, with the indices of the variables in it.
 struct FmuPrepared {
   FmuSettings settings;
   Scene scene;
   Model model;
   Assembly assembly;
-  std::vector<std::size_t> place;  ///< of a column in a row, of an input among the states, of a parameter among the scene's
+  std::vector<std::size_t> place;  ///< index: of a column in a row, of an input among the states, of a parameter among the scene's
 };
 
 /// State from which an instance continues.
@@ -59,7 +59,8 @@ struct StepEnd {
   bool event = false, terminate = false, early = false;
 };
 
-/// A scene that an importer steps. Members throw FmuError, SceneError or AssemblyError, and then change nothing that matters.
+/// A scene that an importer simulates step by step. Members throw FmuError, SceneError or AssemblyError and then leave its state
+/// effectively unchanged; if the run itself fails, it is over.
 class FmuInstance {
  public:
   using Tell = std::function<void(const std::string& warning)>;
@@ -104,13 +105,13 @@ class FmuInstance {
   FmuMode mode_ = FmuMode::instantiated;
   FmuSettings settings_;
   double time_ = 0;
-  std::vector<double> inputs_, applied_;  ///< by value reference: as they are set, as the run has them
+  std::vector<double> inputs_, applied_;  ///< by value reference: as set by the importer; as applied in the run
   std::shared_ptr<const FmuPrepared> prepared_;
   BodyStore bodies_;
   std::unique_ptr<Simulation> simulation_;
   Tally tally_;
   std::vector<int> shown_;
-  std::vector<double> row_;  ///< of now; empty: to be found
+  std::vector<double> row_;  ///< at the present time; empty: not yet computed
   std::string over_;         ///< why the run is over; empty: it continues
 };
 

@@ -1,4 +1,4 @@
-// What the standard has and the unit has not: each says so and is an error.
+// Functions of the standard that the FMU does not support: each logs this and returns an error.
 #include "fmi/handle.h"
 
 namespace {

@@ -9,12 +9,12 @@
 
 namespace pintle::fmi {
 
-/// What the discrete variables count, kept up with a run.
+/// Values of the discrete variables, updated during a run.
 class Tally {
  public:
   void look(const std::vector<FmuVariable>&, const std::vector<std::string>& contact_names, const std::vector<Happening>&,
             const std::vector<Impact>&);
-  /// Of each variable; 0 of those that are not discrete.
+  /// One value per variable; 0 if it is not discrete.
   const std::vector<int>& values() const { return values_; }
 
  private:

@@ -39,8 +39,8 @@ void validate(const std::string& name, const MeshOptions& o, double scale) {
     if (!p.allFinite()) reject(name, ": the point (", p.x(), ", ", p.y(), ") is not finite");
 }
 
-// Checks the beginning of a file of each kind. Gmsh goes by the content: a file named as a mesh but without its keywords would be run as a
-// script.
+// Checks the beginning of a file of each kind. Gmsh decides by the content: it would run a file named as a mesh but without its keywords as
+// a script.
 void validate_head(const std::string& name, const std::string& kind, const std::string& text) {
   const auto fail = [&](const char* what) { reject(name, ": is no ", kind, " file: ", what, "; write it again, or correct its ending"); };
   const std::string_view head = text;

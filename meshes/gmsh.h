@@ -25,9 +25,8 @@ struct MeshOptions {
 Mesh mesh_link(const Link&, const MeshOptions&);
 
 /// A drawing (.geo, .step, .stp, .brep), meshed as requested, or a finished mesh (.msh), used unchanged: then the options have no effect.
-/// In a .geo, sizes in the file apply where they are smaller, unless `size` is given, and its Transfinite is kept. Lengths: a STEP file
-/// contains its unit and is converted to m; .geo, .brep and .msh have none. All are multiplied by `scale` (0.001 for a .brep in
-/// millimetres; 1 for STEP).
+/// In a .geo, smaller sizes in the file apply unless `size` is given, and its Transfinite is kept. Lengths: a STEP file contains its unit
+/// and is converted to m; .geo, .brep and .msh have none. All are multiplied by `scale` (0.001 for a .brep in millimetres; 1 for STEP).
 ///
 /// Groups: physical points and curves, by name or else by number; a curve's sides have the body to their left. A physical surface defines
 /// the body (all surfaces if there is none), and its name becomes a group. Closed loops of the outline that no physical curve touches

@@ -75,8 +75,8 @@ void snap(const std::string& name, Mesh& mesh, const std::vector<Vector2d>& poin
   }
 }
 
-// Merging triangles in pairs gives quadrilaterals everywhere; if the first attempt has a poor one, others are made with another algorithm
-// for placing points or slightly different sizes. The best is used.
+// Merging triangles in pairs gives only quadrilaterals. If the first mesh has a poor one, others are made with another algorithm for
+// placing points or slightly different sizes, and the best is used.
 Mesh mesh_figure(const Figure& f, const SizeField& field, const MeshOptions& o, double scale) {
   struct Try {
     double algorithm, factor;

@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-/// Data of the body in an input file beyond its mesh, in the file's units. None of it is used, since the scene also gives it.
+/// Data of the body in an input file beyond its mesh, in the file's units. They are not used, since the scene gives them too.
 struct InpClaims {
   struct Value {
     double value;

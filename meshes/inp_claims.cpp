@@ -16,7 +16,7 @@ enum class Meaning {
   law,    ///< of a material, other than linear elasticity
   axes,   ///< of a material
   contact,
-  spider,  ///< couples a rim to a reference node
+  spider,  ///< couples the nodes of a rim to a reference node
   part,    ///< changes the body: rejected
 };
 

@@ -15,7 +15,7 @@ struct InpElements {
   std::function<bool(int element)> along_side;                     ///< a line is along a side of a plane element
 };
 
-/// Evaluates the cards that do not define the mesh: what they say about the body, and which are ignored.
+/// Evaluates the cards that do not define the mesh: the data about the body, and the ignored ones.
 /// @throws std::invalid_argument  a card that ties nodes or changes the body, plane strain mixed with plane stress, lines with a section
 /// together with plane elements
 InpClaims inp_claims(const InpDeck&, const InpElements&);

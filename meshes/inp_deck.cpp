@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-// Cards that generate or move nodes: ignoring them would give a different mesh from the one intended.
+// Cards that generate or move nodes: without them the mesh would not be the intended one.
 constexpr std::array generators{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
 
 struct Parser {
@@ -151,7 +151,7 @@ struct Parser {
     queue.others.push_back({card, first, at});
   }
 
-  // A single part, placed where it was drawn.
+  // Accepts only a single part that is not moved or rotated.
   void part_card(const InpCard& card, bool& seen) {
     if (seen)
       queue.text.reject(card.place, "a second *", card.keyword, " after that of line ", part.line,

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;  // of all files together
 constexpr std::size_t most_files = 1000;
 
-/// A card or data, judged by the first character.
+/// Whether a line may be a card or data, by its first character.
 bool may_begin(std::string_view line) { return line.find_first_of("*0123456789+-.") == 0; }
 
 struct Reader {

@@ -7,7 +7,7 @@ namespace pintle {
 
 /// Limits for meshing. A body that needs more is rejected.
 struct MesherLimits {
-  double seconds = 600;                      ///< elapsed time
+  double seconds = 600;                      ///< elapsed time [s]
   std::size_t bytes = std::size_t{8} << 30;  ///< of memory
   bool (*stop)() = nullptr;                  ///< called ten times a second by threads waiting for a mesh; true: stop
 };

@@ -34,7 +34,7 @@ double least_gap(const std::vector<double>& values) {
   return gap;
 }
 
-// Sets the nodes nearest to the points exactly; they differ only by rounding in the lattice's map.
+// Sets the nodes nearest to the points exactly; the lattice's map gives them only to rounding.
 Mesh with_exact_points(Mesh mesh, const MeshOptions& o, double span) {
   for (const Vector2d& p : o.points)
     if (const int node = nearest_node(mesh, p, 1e-6 * span); node >= 0) mesh.x.col(node) = p;

@@ -105,7 +105,7 @@ class Worker {
   int end(bool by_force = true) {
     if (line_ < 0) return 0;
     ::close(std::exchange(line_, -1));
-    if (owner_ != getpid()) return 0;  // a fork of this program has a copy of the connection, but does not own the process
+    if (owner_ != getpid()) return 0;  // a fork of this program has a copy of the connection but does not own the mesher's process
     if (by_force) kill(process_, SIGKILL);
     int status = 0;
     while (waitpid(process_, &status, 0) < 0)
@@ -229,7 +229,7 @@ Mesh mesh_elsewhere(const MesherTask& task) {
   const MesherLimits limits = mesher_limits();
   const std::string name = task.link ? "link" : task.file, words = packed(task);
   std::unique_ptr<Worker> worker = draw_worker();
-  if (!worker || !worker->send(words)) {  // none, or one that was killed from outside
+  if (!worker || !worker->send(words)) {  // there is none, or it was killed from outside
     worker = std::make_unique<Worker>();
     worker->send(words);
   }

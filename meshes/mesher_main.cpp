@@ -127,12 +127,12 @@ int serve() {
 }  // namespace pintle
 
 #if defined(__SANITIZE_ADDRESS__)
-// A crash ends the process by its signal; leaks are not checked, since that needs a process, which is forbidden here.
+// A crash ends the process by its signal; leaks are not checked, because the check starts a process, which is forbidden here.
 extern "C" const char* __asan_default_options() { return "handle_segv=0:detect_leaks=0"; }
 #endif
 
 int main() {
-  std::setlocale(LC_ALL, "C.UTF-8");  // Gmsh sets it too, but when no file can be opened any more
+  std::setlocale(LC_ALL, "C.UTF-8");  // Gmsh also sets it, but only when no file can be opened any more
   std::setlocale(LC_NUMERIC, "C");
   return pintle::serve();
 }

@@ -96,8 +96,8 @@ double corner_angle(const Matrix2d& J, int corner, bool is_triangle) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-// 1, or negative where a middle node is so near an end (within a quarter of the side's length) that the side starts in the wrong direction.
-// Where two such sides meet, the Jacobian is positive again.
+// 1, or negative if a middle node is so near an end (within a quarter of the side's length) that the side starts in the wrong direction.
+// Needed because the Jacobian is positive again where two such sides meet.
 double side_sense(const Vector2d& a, const Vector2d& b, const Vector2d& middle) {
   const double s = (middle - a).dot(b - a) / (b - a).squaredNorm(), out = 4 * std::min(s, 1 - s) - 1;
   return out < 0 ? out : 1;

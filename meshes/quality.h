@@ -33,8 +33,8 @@ inline constexpr double bad_jacobian = 0.1;
 
 /// Cannot fail. A cell with two coinciding nodes has Jacobian 0.
 MeshQuality quality(const Mesh&);
-/// Reverses cells that run clockwise as a whole (allowed in files), so that those still inverted are really inverted; the groups' sides are
-/// reversed with them.
+/// Reverses cells that run clockwise as a whole (allowed in files), so that only faulty cells are left inverted; reverses the groups' sides
+/// with them.
 void orient(Mesh&);
 
 }  // namespace pintle

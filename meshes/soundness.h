@@ -13,7 +13,7 @@ namespace pintle {
 /// names cells, nodes and the position, and gives a remedy.
 struct Soundness {
   std::vector<std::string> faults;       ///< not the intended body: duplicate cells, overlaps, nodes on a side that lacks them
-  std::vector<std::string> warnings_of;  ///< possibly intended: slits, cells that meet only at a node
+  std::vector<std::string> warnings_of;  ///< possibly intended: slits, cells that share only a node
 };
 /// Lengths are relative to those of the sides concerned: a point nearer than 1e-6 of a side lies on it, one nearer than 1e-3 is suspicious.
 /// Overlaps of a tenth of a cell or more are found. @pre cells are counter-clockwise and not inverted

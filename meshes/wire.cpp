@@ -51,7 +51,7 @@ struct Unpacker {
     if (n > rest.size()) spoilt();  // every item has at least one byte
     return n;
   }
-  /// Grows with the data present, whatever length is claimed.
+  /// Grows only with the data present, not with the stated length.
   template <class List, class Pass>
   void each(List& list, Pass pass_one) {
     list.clear();

@@ -18,7 +18,7 @@ struct StaticCase {
   Scene scene;
   std::vector<ElasticBody> bodies = {};
   ContactCase found = {};
-  std::vector<Table> fields = {};  ///< of each body, by the points of its drawing
+  std::vector<Table> fields = {};  ///< one per body, at the points of its drawing
   std::string info = {};
 };
 
@@ -36,7 +36,7 @@ std::shared_ptr<BodyMesh> mesh(const SceneSource& source, const std::string& nam
   return out;
 }
 
-/// What static.vtu holds, a row for each point.
+/// The contents of static.vtu, a row for each point.
 Table point_table(const ElasticBody& e, const StaticReport& report) {
   const BodyDrawing drawing(e);
   std::vector<Field> fields = static_fields(drawing, report);
@@ -77,7 +77,7 @@ std::shared_ptr<StaticCase> static_case(const SceneSource& source, const std::st
   return out;
 }
 
-/// Of each body: (name, (header, points × columns), points.csv, section_forces.csv or None)
+/// One tuple per body: (name, (header, points × columns), points.csv, section_forces.csv or None)
 py::list bodies(py::object self) {
   const auto& c = self.cast<const StaticCase&>();
   py::list out;

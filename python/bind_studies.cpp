@@ -63,7 +63,7 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
   return py::make_tuple(csv, json, met, file, best, point, measures);
 }
 
-/// Of the cases that did not run to their end, how many of how many and why the first; empty: all did.
+/// The number of cases that did not run to their end, and the reason of the first; empty: all did.
 std::string lost_cases(const std::vector<Row>& rows) {
   const auto lost = [](const Row& r) { return r.status != "finished"; };
   const auto first = std::ranges::find_if(rows, lost);
@@ -96,7 +96,7 @@ py::tuple sensitivity(const std::string& study, const std::string& folder, const
   return py::make_tuple(csv, json, cases, warning);
 }
 
-/// (values.csv, what `pintle nonlinear --json` tells, section.csv, orbits.csv, lyapunov.csv), None where it was not asked for
+/// (values.csv, the output of `pintle nonlinear --json`, section.csv, orbits.csv, lyapunov.csv), None for tables not requested
 py::tuple nonlinear(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string values, json;
@@ -119,7 +119,7 @@ py::tuple nonlinear(const std::string& study, const std::string& folder, const O
   return py::make_tuple(values, json, section, orbits, exponents);
 }
 
-/// (tradeoff.csv, tradeoff.json, the report as text, the scene's file, its overrides for what is recommended or None)
+/// (tradeoff.csv, tradeoff.json, the report as text, the scene's file, overrides of the recommended setting or None)
 py::tuple tradeoff(const std::string& file, const std::optional<std::string>& folder, const Overrides& set, const TradeWishes& wishes) {
   Watch watch;
   std::string csv, json, text, scene;

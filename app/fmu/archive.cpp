@@ -27,7 +27,7 @@ void ZipFile::fail() const { throw FileError(path_, errno); }
 
 void ZipFile::add(const std::string& name, std::string_view content, bool program) {
   zip_fileinfo about{};
-  about.tmz_date.tm_year = 1980, about.tmz_date.tm_mday = 1;  // the first that the format knows
+  about.tmz_date.tm_year = 1980, about.tmz_date.tm_mday = 1;  // the earliest date of the format
   constexpr uLong ordinary_file = 0100000, utf8_name = 1u << 11, made_by_unix = 3u << 8 | 45;
   about.external_fa = (ordinary_file | (program ? 0755 : 0644)) << 16;
   const bool large = content.size() > 0xffffffffu;

@@ -6,15 +6,15 @@
 
 namespace pintle::app {
 
-/// A new .zip file, whole or not at all. What is the same is the same file: entries bear no time.
+/// A new .zip file, written completely or not at all. The same contents give the same bytes, since entries have a fixed date.
 class ZipFile {
  public:
-  /// @throws FileError  it cannot be made
+  /// @throws FileError  it cannot be created
   explicit ZipFile(const std::filesystem::path&);
   ~ZipFile();
   ZipFile(const ZipFile&) = delete;
   void add(const std::string& name, std::string_view content, bool program = false);
-  /// Puts it in its place, over one that is there.
+  /// Moves it to its path, replacing an existing file.
   void commit();
 
  private:

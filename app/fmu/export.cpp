@@ -31,12 +31,12 @@ constexpr const char* licence =
     "The shared library of this unit is Pintle, free software under the GNU General Public License, version 3 or any later\n"
     "version: whoever receives the unit is entitled to the program's source. The scene in resources/ belongs to its author.\n";
 
-/// What the scene's file is called, without its endings.
+/// The name of the scene's file without its endings.
 std::string name_of(const fs::path& scene) {
   return (scene.stem().has_extension() ? scene.stem().stem() : scene.stem()).string();  // NAME.pintle.yaml
 }
 
-/// A name in C of it.
+/// Converts it to an identifier of C.
 std::string identifier_of(const fs::path& scene) {
   std::string out = name_of(scene);
   for (char& c : out)
@@ -44,7 +44,7 @@ std::string identifier_of(const fs::path& scene) {
   return out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) ? "scene_" + out : out;
 }
 
-/// Contents of the scene's files by their names in its folder.
+/// Contents of the scene's files, by their names in its folder.
 std::map<std::string, std::string> scene_files(const fs::path& scene, const std::vector<fs::path>& noted) {
   const fs::path folder = fs::absolute(scene).lexically_normal().parent_path();
   std::map<std::string, std::string> out;

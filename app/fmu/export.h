@@ -9,7 +9,7 @@
 namespace pintle::app {
 
 struct FmuOrder {
-  std::filesystem::path scene, out;  ///< out empty: SCENE.fmu in the folder of now
+  std::filesystem::path scene, out;  ///< out empty: SCENE.fmu in the current folder
   Overrides set;
   std::vector<std::string> inputs, outputs;
 };
@@ -17,11 +17,11 @@ struct FmuOrder {
 struct ExportedFmu {
   std::filesystem::path file;
   fmi::FmuContents contents;
-  std::vector<std::string> files;  ///< of the scene, itself first
+  std::vector<std::string> files;  ///< of the scene, its own file first
   std::vector<std::string> warnings;
 };
 
-/// Writes a scene as a unit for co-simulation.
+/// Writes a scene as an FMU for co-simulation.
 /// @throws SceneError, AssemblyError, FileError
 ExportedFmu export_fmu(const FmuOrder&);
 

@@ -1,4 +1,4 @@
-// pintle-fmu SCENE, for `pintle fmu`: a scene as a unit that other programs step (FMI 3.0).
+// pintle-fmu SCENE, for `pintle fmu`: exports a scene as an FMU, which other programs simulate step by step (FMI 3.0).
 #include <CLI/CLI.hpp>
 
 #include <iostream>

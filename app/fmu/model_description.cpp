@@ -17,7 +17,7 @@ namespace {
 using fmi::FmuContents;
 using fmi::FmuVariable;
 
-/// XML or HTML as text, by libxml2, which writes what has to be escaped.
+/// XML or HTML as text, by libxml2, which escapes characters where necessary.
 class Markup {
  public:
   explicit Markup(const char* doctype = nullptr)
@@ -53,7 +53,7 @@ class Markup {
   std::unique_ptr<xmlTextWriter, decltype(&xmlFreeTextWriter)> to_;
 };
 
-/// Exponents of the base units; none where one is not whole, as of m kg^0.5.
+/// Exponents of the base units; nothing if one is not an integer, as in m kg^0.5.
 Markup::Attributes base_units(const std::string& unit) {
   const Quantity one = read_quantity("1 " + unit);
   const Dimension& d = one.dimension;

@@ -6,7 +6,7 @@
 
 namespace pintle::app {
 
-/// modelDescription.xml of a unit. @param identifier  what its shared library is called
+/// modelDescription.xml of an FMU. @param identifier  name of its shared library
 std::string model_description(const fmi::FmuContents&, const std::string& identifier);
 
 /// documentation/index.html: the variables as a table.

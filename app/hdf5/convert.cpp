@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_rows = std::size_t{1} << 16;   // of a block
-constexpr std::size_t most_bytes = std::size_t{1} << 26;  // of a block's fields, and as much again of its long texts
+constexpr std::size_t most_bytes = std::size_t{1} << 26;  // of a block's fields; the same limit applies to its long texts
 
 std::vector<fs::path> files_ending(const fs::path& folder, const char* ending) {
   std::vector<fs::path> out;
@@ -57,7 +57,7 @@ std::size_t rows_of_a_block(const std::vector<bool>& text) {
   return std::clamp<std::size_t>(most_bytes / row, 1, most_rows);
 }
 
-/// Rows on their way from a table to its group.
+/// Rows read from a table, to be written to its group together.
 class Block {
  public:
   Block(const std::vector<bool>& text, std::size_t most) : text_(text), most_(most), numbers_(text.size()), texts_(text.size()) {}
@@ -97,7 +97,7 @@ class Block {
   std::vector<std::vector<std::string>> texts_;
 };
 
-/// @returns the number of its rows, or nothing if it was stopped
+/// @returns the number of its rows; nothing if it was stopped
 std::optional<std::size_t> convert_table(const fs::path& csv, const std::string& group, Hdf5File& out, const ConversionStep& tell) {
   const auto told = [&](const char* what, std::size_t row) {
     return tell(what + csv.filename().string() + ", row " + std::to_string(row));
@@ -110,7 +110,7 @@ std::optional<std::size_t> convert_table(const fs::path& csv, const std::string&
   Hdf5Table table = out.add_table(group, columns_of(in.header(), kinds->text), kinds->rows, most);
   Block block(kinds->text, most);
   std::vector<std::string> fields;
-  while (block.end() < kinds->rows) {  // a run that goes on adds more
+  while (block.end() < kinds->rows) {  // a run in progress adds more
     if (!in.next(fields)) in.fail("the table was changed while it was read");
     block.add(fields, in);
     if (!block.full()) continue;

@@ -12,7 +12,7 @@ struct ConvertedTables {
   bool whole = true;  ///< false: it was stopped, and there is no file
 };
 
-/// Told what is done: "reading trajectory.csv, row 4096". @returns false: stop
+/// Called with the progress: "reading trajectory.csv, row 4096". @returns false: stop
 using ConversionStep = std::function<bool(const std::string&)>;
 
 /// Writes the tables (.csv) and descriptions (.json) of a folder of results as one HDF5 file: docs/results.md. Memory does not depend on the

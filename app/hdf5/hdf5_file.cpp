@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keeps what the library says first, where the error began.
+/// Keeps the library's first message, which describes the origin of the error.
 herr_t keep_first(unsigned, const H5E_error2_t* error, void* words) {
   std::string& kept = *static_cast<std::string*>(words);
   if (kept.empty() && error->desc) kept = error->desc;
   return 0;
 }
 
-/// @throws FileError  with the error of the system, or where there is none with the library's words
+/// @throws FileError  with the error of the system; if there is none, with the library's message
 [[noreturn]] void fail(const fs::path& file) {
   std::string words;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &words);
@@ -79,7 +79,7 @@ void add_attribute(const Hdf5Handle& object, const char* name, const Hdf5Handle&
 
 /// How a column is stored.
 Hdf5Handle storage(std::size_t rows, std::size_t chunk, const fs::path& file) {
-  constexpr unsigned level = 1;  // shuffled numbers gain little by more, which takes several times as long
+  constexpr unsigned level = 1;  // higher levels compress shuffled numbers little better and take several times as long
   Hdf5Handle out = properties(H5P_DATASET_CREATE, file);
   if (rows == 0) return out;
   const hsize_t size = std::min(rows, chunk);
@@ -90,12 +90,12 @@ Hdf5Handle storage(std::size_t rows, std::size_t chunk, const fs::path& file) {
 }
 
 hid_t new_file(const fs::path& staging, const fs::path& path) {
-  H5dont_atexit();  // after an error the library would try again to write
+  H5dont_atexit();  // after an error the library would try to write again
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const Hdf5Handle access = properties(H5P_FILE_ACCESS, path);
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18), path);  // attributes above 64 kB; all programs read it
-  checked(H5Pset_cache(access.id(), 0, 0, 0, 0), path);                              // blocks come whole
-  checked(H5Pset_file_locking(access.id(), false, true), path);                      // no other knows its name
+  checked(H5Pset_cache(access.id(), 0, 0, 0, 0), path);                              // blocks are written whole
+  checked(H5Pset_file_locking(access.id(), false, true), path);                      // no other process knows its name
   return checked(H5Fcreate(staging.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), path);
 }
 

@@ -37,7 +37,7 @@ struct Hdf5Column {
 /// A table: a group with a dataset for each column.
 class Hdf5Table {
  public:
-  /// From this row on. @throws FileError
+  /// Writes values of a column from this row on. @throws FileError
   void write(std::size_t column, std::size_t row, std::span<const double>);
   void write(std::size_t column, std::size_t row, std::span<const std::string>);
 
@@ -50,7 +50,7 @@ class Hdf5Table {
   std::vector<Hdf5Handle> datasets_;
 };
 
-/// A new HDF5 file, written beside its place, where `commit` puts it; otherwise nothing is left of it. Nothing of a table stays in memory.
+/// A new HDF5 file, written under a temporary name; `commit` moves it to its path, otherwise it is removed. Tables are not kept in memory.
 class Hdf5File {
  public:
   /// @throws FileError

@@ -14,7 +14,7 @@ namespace pintle::app {
 
 namespace {
 
-/// Columns that are text even where they are empty or hold names such as "12". The type of any other column follows from its values.
+/// Whether a column is always text, even if it is empty or holds names such as "12". The type of any other column follows from its values.
 bool is_text_by_nature(const std::string& table, const std::string& heading) {
   static const std::map<std::string_view, std::vector<std::string_view>> columns{{"A", {"rate of"}},
                                                                                  {"B", {"rate of"}},

@@ -41,7 +41,7 @@ struct ViewServer::Server {
   std::string token = unguessable();
   int port = 0;
 
-  /// A request from our page, or from the user's browser for it: to this address by its name, not from another site.
+  /// Whether a request is from our page, or from the user's browser for it: it names this address and does not come from another site.
   bool is_ours(const httplib::Request& request) const {
     const std::string host = request.get_header_value("Host"), origin = request.get_header_value("Origin");
     const std::string here = "127.0.0.1:" + std::to_string(port), site = request.get_header_value("Sec-Fetch-Site");
@@ -81,7 +81,7 @@ ViewServer::ViewServer(ViewSession& session, int port) : server_(std::make_uniqu
   http.set_read_timeout(5);
   http.set_write_timeout(5);
   http.set_keep_alive_timeout(2);
-  // A request with a body of unknown length would make the server wait for its end.
+  // Rejects a request with a body of unknown length: the server would wait for its end.
   http.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
     const bool reads = request.method == "GET" || request.method == "HEAD", posts = request.method == "POST";
     if (reads || (posts && request.has_header("Content-Length"))) return httplib::Server::HandlerResponse::Unhandled;

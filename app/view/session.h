@@ -20,12 +20,12 @@ class ViewSession {
   ViewSession(std::filesystem::path scene, Overrides);
   ~ViewSession();
 
-  /// What is to be drawn, or only {"version": n} if the page already has it.
+  /// The scene to be drawn, or only {"version": n} if the page already has it.
   std::string now(long known);
   /// @param request  {"version", "body", "point": [x, y], "to": [x, y]}, the point in the body's axes from its mass centre
-  /// @returns nothing: it is not such a request
+  /// @returns nothing if it is not such a request
   std::optional<std::string> drag(const std::string& request);
-  /// Resets it to the assembled configuration of the scene.
+  /// Resets the motion to the assembled configuration of the scene.
   std::string again();
 
  private:

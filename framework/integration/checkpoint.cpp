@@ -18,7 +18,7 @@ void Integrator::archive(A& x) {
     if (!x.good()) return;
     stepper_ = make_stepper(method, system_, scheme_, eq_);
     if (!stepper_) return x.fail();
-    if (method != name(scheme_)) switching_.goes_on_with(method);  // the method that `auto` chooses now may differ
+    if (method != name(scheme_)) switching_.goes_on_with(method);  // `auto` may choose another method now
     scheme_.fallback = find_tableau(fallback);
     stepper_->load(x);
   } else {

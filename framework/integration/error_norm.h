@@ -21,7 +21,7 @@ class ErrorNorm {
   /// Largest error of a step over its scale. @param follows_impacts  with a clearance, speeds are compared with the speed gained across it
   /// at the acceleration of the motion, √(c v ω), where ω = v/L or that of the lowest shape, and speeds of shapes with the equally fine ω c
   double of(const Step&, bool follows_impacts) const;
-  /// Takes an accepted node into account: largest speed and energy so far.
+  /// Updates the largest speed and energy so far from an accepted node.
   void see(const Eigen::VectorXd& y);
 
   double length() const { return fine_length_; }

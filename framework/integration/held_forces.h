@@ -13,11 +13,10 @@ namespace pintle {
 
 class Stepper;
 
-/// Some friction sticks, or some rigid contact is closed, so that the accelerations determine its force.
+/// Whether some friction sticks or some rigid contact is closed, so that the accelerations determine its force.
 bool holds_anything(const System&, const State&);
 
-/// Such forces inside a step. Dense output does not include them: a body at rest may be pushed and released again within a step that
-/// nothing else limits.
+/// Such forces inside a step. Dense output does not include them: a body at rest may be pushed and released within one long step.
 class HeldForces {
  public:
   /// Evaluates them in the middle of the step. @param work  any state of the system

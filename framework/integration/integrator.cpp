@@ -22,7 +22,7 @@ namespace {
 
 constexpr double least_step = 4e-16;  // relative to the time: shorter steps are lost in its last digits
 
-// A time this near one of these ends is set equal to it: no step fits in between.
+// Sets a time equal to an end that is so near that no step fits in between.
 void end_together(double& t, std::initializer_list<double> ends) {
   for (const double end : ends)
     if (std::isfinite(end) && std::abs(end - t) <= least_step * std::abs(end)) t = end;
@@ -188,7 +188,7 @@ bool Integrator::sees_ends_alone() const {
   return traits.implicit || (traits.fixed_step == 0 && holds_anything(system_, step_.from.state));
 }
 
-// Not for implicit steps: they are short, and stiff forces are in balance only at their ends.
+// Not for implicit steps: these are short, and stiff forces are in balance only at their ends.
 void Integrator::look_inside() {
   held_.forget();
   const StepperTraits& traits = stepper_->traits();
@@ -196,7 +196,7 @@ void Integrator::look_inside() {
   held_.look(system_, *stepper_, step_, dense_);
 }
 
-// Where the dense output of a long step shows an event that true steps do not find, or a step passes one too far, a shorter step is tried.
+// If dense output of a long step shows an event that true steps do not find, or a step goes too far past one, a shorter step is tried.
 bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
   for (int halvings = 0;; ++halvings) {
     look_inside();
@@ -227,7 +227,7 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   ++counts_.events;
   step_.y_before = step_.to.state.y;
   const EventOutcome outcome = events_.act(event, step_, wish);
-  // What an event that fails leaves is of no use: the last row is of what was before it.
+  // The state that a failed event leaves is invalid: the last row shows the state before it.
   const auto undo = [&] { step_.to.state.y = step_.y_before; };
   if (!outcome.did.empty()) happenings_.push_back({step_.to.state.t, events_.name(event), outcome.did});
   if (!outcome.failure.empty()) {
@@ -281,7 +281,7 @@ void Integrator::look_at_end() {
   worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
 }
 
-// Called after a step that no event has ended.
+// Called after a step that did not end at an event.
 bool Integrator::switch_method() {
   events_.keep_end();
   if (!switching_.held_by_stability(*stepper_, scheme_, step_)) return true;
@@ -311,7 +311,7 @@ bool Integrator::sample(double t, State& out) {
   if (!sampled_) sampled_ = std::make_unique<Equations>(system_);
   sampled_->permanent = eq_.permanent;
   if (t > step_.from.state.t || t >= step_.to.state.t) return stepper_->sample(step_, t, *sampled_, out);
-  Step begin = step_;  // t lies in the roundings of the clock by which a step begins after a change of a law
+  Step begin = step_;  // t is in the few roundings of time between the two sides of a change of a law
   begin.to = begin.from;
   begin.to.state.t = t;
   begin.h = 0, begin.struck = false;
@@ -326,7 +326,7 @@ Counts Integrator::counts() const {
   return c;
 }
 
-// Shortening the step brings its end nearer to a singular configuration met by a stage: it is shortened only a little.
+// A shorter step would end nearer to the singular configuration that a stage met: it is shortened only a little.
 double Integrator::least_part() const { return stepper_->strayed_near_singular(step_, eq_) ? 0.7 : 0.2; }
 
 std::string Integrator::trouble() const { return stepper_->trouble().empty() ? "" : ": " + stepper_->trouble(); }

@@ -28,9 +28,9 @@ class Integrator {
 
   /// One step towards `until`, ending there at the latest. @returns false when it fails, see failure(), or has ended, see ended()
   bool advance(double until);
-  /// For when no step follows: acts on the next of the events that have occurred at the last step's end but would act only as the following
-  /// step begins.
-  /// @returns false where there is none, or it cannot act; see failure()
+  /// If no step follows: lets the next event act that has occurred at the last step's end but would act only when the following step
+  /// begins.
+  /// @returns false if there is none, or it cannot act; see failure()
   bool act_at_end();
   /// Changes the state between steps, as an event would. @returns false when it cannot continue from there; see failure()
   bool change(const std::function<void(State&)>& act);
@@ -46,15 +46,15 @@ class Integrator {
   const Step& last() const { return step_; }
   const std::vector<Impact>& impacts() const { return contacts_->impacts(); }  ///< in order of their begin
   const std::vector<Happening>& happenings() const { return happenings_; }     ///< record of the events of the scene
-  bool asks_for_row() const { return row_; }                                   ///< an event at the last step's end requests it
-  bool asks_for_save() const { return save_; }                                 ///< likewise, for saving the state
+  bool asks_for_row() const { return row_; }    ///< an event at the last step's end requests a row of results
+  bool asks_for_save() const { return save_; }  ///< likewise, that the state is saved
   const std::string& failure() const { return failure_; }
   const std::string& ended() const { return ended_; }  ///< why an event has ended the integration; otherwise empty
   Counts counts() const;
   double worst_position() const { return worst_position_; }  ///< largest scaled |C| at a step's end
   double worst_velocity() const { return worst_velocity_; }
   bool implicit() const { return stepper_->traits().implicit; }         ///< at present
-  double held_by_stability() const { return switching_.held_share(); }  ///< share of the explicit steps
+  double held_by_stability() const { return switching_.held_share(); }  ///< share of the explicit steps limited by stability
   const std::string& switched() const { return switching_.why(); }      ///< when and why another method took over; otherwise empty
 
   /// Everything the following steps depend on, and the impacts and counts so far, exact to the bit. Valid only for this System, scheme and

@@ -18,7 +18,7 @@ double end_within_bend(const std::vector<LawBend>& bends, double t) {
   return t + (1 + rest) * longest < bend->end ? t + longest : bend->end;
 }
 
-// The first change more than rounding ahead: an event at the previous one may have been located one digit before it.
+// The first change that is ahead by more than rounding: an event at the previous one may have been located a last digit before it.
 auto next_change(const Scheme& scheme, double t) {
   constexpr double roundings = 1e-15;
   return std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t + roundings * std::abs(t),

@@ -34,15 +34,15 @@ struct Scheme {
   double onset_cut = 0;               ///< 0: locate contact onset and loss as events. Positive: the strategy of
                                       ///< Flores and Ambrósio (2010), halve the step until the first penetration
                                       ///< is below this [m]; loss is then taken at the end of a step
-  const Tableau* fallback = nullptr;  ///< takes over permanently where a stage of `tableau` comes near a singular configuration; or none
+  const Tableau* fallback = nullptr;  ///< takes over permanently if a stage of `tableau` comes near a singular configuration; nullptr: none
   double max_step = std::numeric_limits<double>::infinity();  ///< [s]
   std::vector<LawChange> changes = {};                        ///< of the laws of time, in order and distinct
-  std::vector<std::vector<double>> pieces = {};               ///< per law, ends of its smooth pieces; a step passes at most one whole piece
-  std::vector<std::vector<LawBend>> bends = {};               ///< per law, its smooth pieces that are not linear, in order
+  std::vector<std::vector<double>> pieces = {};  ///< per law, ends of its smooth pieces; a step contains at most one whole piece
+  std::vector<std::vector<LawBend>> bends = {};  ///< per law, its smooth pieces that are not linear, in order
   long max_steps = 100'000'000;
   double rho = 0.8;         ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
-  double switch_below = 0;  ///< an explicit step that stability, not accuracy, keeps below this makes
-                            ///< generalised-α take over [s]; 0: never
+  double switch_below = 0;  ///< generalised-α takes over if stability, not accuracy, limits explicit steps
+                            ///< to less than this [s]; 0: never
   std::string reason = {};  ///< reason for this scheme, in words
   std::string stiff = {};   ///< the fastest decay, in words
   /// Each creates a group of events for one integrator, in addition to those of the contacts.

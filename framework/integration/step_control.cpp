@@ -8,7 +8,7 @@
 namespace pintle {
 
 StepControl::Try StepControl::next(double left) const {
-  const bool last = h_ >= left * (1 - short_part);  // and no remainder too short to resolve accelerations is left
+  const bool last = h_ >= left * (1 - short_part);  // so that no remainder too short to resolve accelerations is left
   return {last ? left : h_, last};
 }
 

@@ -13,7 +13,7 @@ class StepControl {
  public:
   explicit StepControl(double max_step) : max_step_(max_step) {}
 
-  /// The next step's length if nothing shortens it; 0: not chosen yet [s].
+  /// The next step's length unless something shortens it; 0: not chosen yet [s].
   double wish() const { return h_; }
   void wish_for(double h) { h_ = h; }
   double bounded(double h) const { return h < max_step_ ? h : max_step_; }

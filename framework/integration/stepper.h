@@ -20,10 +20,10 @@ class Writer;
 struct StepperTraits {
   int order;  ///< of the error that it estimates for the step h: hᵖ
   bool implicit;
-  bool follows_impacts;                       ///< its steps resolve the force of a contact: they end where that has a kink
+  bool follows_impacts;                       ///< its steps resolve contact forces: they end where these have a kink
   bool ends_evaluated;                        ///< `attempt` leaves contacts evaluated at the step's end
   double fixed_step = 0;                      ///< the length of its steps; 0: chosen by the error [s]
-  double least_change = 1, least_growth = 1;  ///< a next step between these ratios to the last is not worth another factorization
+  double least_change = 1, least_growth = 1;  ///< a change of the step by a ratio between these is not worth another factorization
 };
 
 /// A method of time integration as seen by the integrator: it makes steps and samples the motion inside them. It is independent of error
@@ -39,7 +39,7 @@ class Stepper {
   /// @returns false in a singular configuration
   virtual bool project(Instant&, Equations&) = 0;
   /// Fills step.to and step.error from step.from and h; step.from is never changed.
-  /// @returns false where it fails; see trouble()
+  /// @returns false if it fails; see trouble()
   virtual bool attempt(double h, const ErrorNorm&, Step&, Equations&) = 0;
   /// The step was accepted; its end is in the equations.
   virtual void accept(Equations&) = 0;
@@ -52,13 +52,13 @@ class Stepper {
   /// the step and does not affect later ones. @returns false if it cannot be evaluated
   virtual bool sample(const Step&, double t, Equations&, State& out) = 0;
 
-  /// A stage of the last attempt was near a singular configuration.
+  /// Whether a stage of the last attempt was near a singular configuration.
   virtual bool passed_near_singular() const = 0;
-  /// The equations are so near a singular configuration that no step should end there.
+  /// Whether the equations are so near a singular configuration that no step should end there.
   virtual bool near_singular(const Equations&) const = 0;
-  /// A stage of the step came much nearer to a singular configuration than its end, too near for the tolerance.
+  /// Whether a stage of the step was much nearer to a singular configuration than its end, too near for the tolerance.
   virtual bool strayed_near_singular(const Step&, const Equations&) const = 0;
-  /// The step is as long as stability allows.
+  /// Whether the step is as long as stability allows.
   virtual bool at_stability_limit(const Step&) const = 0;
   virtual std::string trouble() const = 0;
   virtual int partitions() const = 0;
@@ -66,13 +66,13 @@ class Stepper {
   /// The data besides the nodes that the next steps depend on.
   virtual void save(Writer&) const = 0;
   virtual void load(Reader&) = 0;
-  /// The loaded data fit the system and this node.
+  /// Whether the loaded data fit the system and this node.
   virtual bool fits(const Instant&) const = 0;
   /// Evaluates the last step's end as the steps did.
   virtual void evaluate_end(const Step&, Equations&) = 0;
 };
 
-/// Name as in scene files, with the settings of the scheme. @returns nullptr if there is none of that name
+/// @param name  as in scene files   @returns nullptr if no method has that name
 std::unique_ptr<Stepper> make_stepper(std::string_view name, const System&, const Scheme&, const Equations&);
 
 /// Accuracy of holding forces inside a step of this tolerance, relative to the most that can be held.
@@ -88,7 +88,7 @@ class DenseOutput {
     if (held_.known()) held_.put(step_, t, work_.friction);
     return work_;
   }
-  /// Forces of sticking friction and closed rigid contacts are known inside the step too, not only at its ends.
+  /// Whether forces of sticking friction and closed rigid contacts are known inside the step, not only at its ends.
   bool knows_held_forces() const { return held_.known(); }
 
  private:

@@ -7,13 +7,13 @@
 
 namespace pintle {
 
-/// When another method takes over permanently, and why.
+/// Decides when another method takes over permanently, and why.
 class Switching {
  public:
-  /// Stages of a pair of high order deviate far from the motion, too far near branching points: the scheme's fallback takes over.
+  /// Whether the scheme's fallback takes over: stages of a pair of high order deviate far from the motion, too far near branching points.
   bool falls_back(const Stepper&, const Scheme&, double t);
-  /// An explicit pair whose accepted steps are repeatedly at its stability limit is limited by stability rather than accuracy: an implicit
-  /// method takes over. Where switching is not allowed, such steps are counted.
+  /// Whether an implicit method takes over: the accepted steps of an explicit pair are repeatedly at its stability limit. If switching is
+  /// not allowed, such steps are only counted.
   bool held_by_stability(const Stepper&, const Scheme&, const Step&);
   /// A saved run continues with its method.
   void goes_on_with(const std::string& method);

@@ -35,7 +35,7 @@ std::string one_line(std::string s) {
   return s;
 }
 
-/// The measures' values; a name that this case lacks, but that exists in the study's scene without the case's overrides, is not an error.
+/// The measures' values; a name that this case lacks but the study's scene without the case's overrides has is not an error.
 void measure(const CaseSource& source, const std::vector<Measure>& measures, const Scene& scene, const Model& model, const Run& run,
              Outcome& out) {
   for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -97,7 +97,7 @@ Run follow_case(const Scene& scene, const Model& model, const Assembly& assembly
   }
 }
 
-/// Takes over the results of a run, or of an analysis with similar results.
+/// Copies the results of a run, or of an analysis with similar results.
 void take_over(Outcome& out, const Run& run) {
   out.status = status_text(run.status);
   out.reason = one_line(run.reason);
@@ -127,7 +127,7 @@ std::string curves_csv(const std::vector<Measure>& curves, const Scene& scene, c
   return out;
 }
 
-/// Analyses that give columns: a run, kinematics, inverse, statics.
+/// Analyses whose results are columns: a run, kinematics, inverse, statics.
 void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure>& measures, const CaseLimits& limits, Scene& scene,
                double begin) {
   if (limits.time_alone) scene.output.every = scene.run.until;
@@ -145,7 +145,7 @@ void follow_in(Outcome& out, const CaseSource& source, const std::vector<Measure
   if (limits.keep_run) out.run = std::move(run);
 }
 
-/// The state for a linearisation; nothing, and the reason, where there is none.
+/// The state for a linearisation; nothing, and the reason, if there is none.
 std::optional<State> linearized_about(const Scene& scene, const Model& model, const Question& question, Outcome& out) {
   const Assembly assembly = assemble(scene, model);
   if (question.equilibrium) {

@@ -28,33 +28,33 @@ struct CaseSource {
 };
 /// @throws SceneError  there is no such file
 CaseSource read_case_source(const std::filesystem::path& scene, Overrides common = {});
-/// A case's scene, prepared for the analysis. @throws SceneError  it cannot be read, or lacks what the analysis needs
+/// A case's scene, prepared for the analysis. @throws SceneError  it cannot be read, or lacks data that the analysis needs
 Scene case_scene(const CaseSource&, const Overrides&);
 /// The scene common to all cases. @throws SceneError
 Scene common_scene(const CaseSource&);
 
 class BodyStore;
 
-/// Result of a case. Every case ends: what would stop a single run is reported here as a reason.
+/// Result of a case. Every case has one: an error that would stop a single run is the reason here.
 struct Outcome {
   std::string
       status;  ///< "finished", "failed", "interrupted", "ledger over its bound", "refused" (scene), "not assembled", "over its limit"
   std::string reason;              ///< one line; empty when finished
-  std::vector<double> values;      ///< one per measure; NaN where there is none
+  std::vector<double> values;      ///< one per measure; NaN if there is none
   std::vector<std::string> units;  ///< likewise; empty if the scene was refused
-  double build_seconds = 0;        ///< processor time of reading, building, assembling
-  double run_seconds = 0;          ///< likewise of simulating
+  double build_seconds = 0;        ///< processor time of reading, building, assembling [s]
+  double run_seconds = 0;          ///< likewise of simulating [s]
   double t_end = 0;                ///< reached [s]
   Counts counts;
   long impacts = 0;              ///< of all clearances
-  double unexplained_share = 0;  ///< of the energy in play, at worst
+  double unexplained_share = 0;  ///< largest energy-balance error over Run::energy_in_play
   std::map<std::string, std::string> curves =
-      {};                          ///< by situation, "" without any, a CSV file: time, and a column for each curve asked for
+      {};                          ///< per situation ("" if there is none), a CSV file: time, and a column for each requested curve
   std::shared_ptr<const Run> run;  ///< kept if requested; none for modal analyses
 };
 
 struct CaseLimits {
-  double seconds = 0;                            ///< of simulating; 0: none
+  double seconds = 0;                            ///< limit of the computing time of the simulation [s]; 0: none
   bool keep_run = false;                         ///< Outcome::run
   const std::vector<Measure>* curves = nullptr;  ///< Outcome::curves; nullptr: none
   bool time_alone = false;           ///< only the first and last row: run_seconds is then the integration time, and measures are NaN

@@ -45,7 +45,7 @@ void set_parameters(Yaml& scene, const Overrides& parameters) {
   }
 }
 
-/// Entries that fit on a line are written on one, others with one entry per line.
+/// Entries that fit on one line are written on it, others one per line.
 void block(const Yaml& yaml, std::size_t indent, std::string& out) {
   const std::string flow = override_text(yaml);
   const bool open = yaml.kind == Yaml::Kind::map && !yaml.items.empty() && (indent == 0 || flow.size() + indent > 120);

@@ -147,7 +147,7 @@ std::vector<Measure> read_curves(const StudyFile& file) {
 
 namespace {
 
-/// What stands beside `section` and `lyapunov` in studies that have these stands in a section of others.
+/// Keys that other studies have in a section, but studies with `section` and `lyapunov` have beside these.
 void refuse_loose_limits(const Node& root) {
   if (root.has("section") || root.has("lyapunov")) return;
   for (const char* limit : {"limit", "most steps"}) {
@@ -178,7 +178,7 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
   if (root.has("title")) file.study.title = root.at("title").text("a line of text");
   const Node scene = root.at("scene");
   const std::filesystem::path scene_path = path.parent_path() / scene.text("the scene's file, beside the study");
-  // A user's study may name a scene anywhere, but no other file: errors show its content.
+  // A study may name a scene anywhere, but no other kind of file, since errors show the file's content.
   const std::string kind = ending_of(scene_path);
   if (kind != ".yaml" && kind != ".yml" && kind != ".json") scene.fail(scene.shown() + " is not a scene; name a .yaml, .yml or .json file");
   if (!std::filesystem::exists(scene_path)) scene.fail("there is no file " + scene_path.string() + "; its path is relative to the study");

@@ -9,8 +9,8 @@
 
 namespace pintle {
 
-/// A study file: a scene, settings common to its cases, and measures. What is varied, and for what purpose, is in a separate section, such
-/// as `sweep` (sweep.h) or `tradeoff` (tradeoff.h), with its own reader.
+/// A study file: a scene, settings common to its cases, and measures. What is varied, and why, is in a separate section with its own
+/// reader, such as `sweep` (sweep.h) or `tradeoff` (tradeoff.h).
 struct Study {
   std::string file;  ///< for messages
   std::string title;
@@ -45,10 +45,10 @@ void each_entry(const Node& node, const char* remedy, F f) {
 
 /// @throws SceneError  it measures nothing, which is allowed only in a study with a goal
 void require_measures(const StudyFile&);
-/// What is said of such a name.
+/// The message about such a name.
 inline constexpr const char* taken_name = "is the name of another column of the study's table; choose another name";
 /// @param columns  of the study's table, without their units
-/// @throws SceneError  at this place of the study: what is called like one of them would be a second column of that name
+/// @throws SceneError  at this place of the study: a name equal to one of them would give a second column of that name
 void require_other_name(const std::string& name, const std::vector<std::string>& columns, const std::string& file, const Place&);
 void require_other_names(const std::vector<Measure>&, const std::vector<std::string>& columns);
 /// `keep`: quantities for which each case writes a curve. @throws SceneError  the scene has no such quantity

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Eigen::Index;
 
-constexpr int most = 300;  ///< with more lost rows than this, they are taken as permanently redundant
+constexpr int most = 300;  ///< more lost rows than this are taken as permanently redundant
 
 void divide_by_mass(const System& system, Equations& eq, VectorXd& v) {
   for (std::size_t b = 0; b < system.bodies.size(); ++b)
@@ -119,12 +119,12 @@ bool follow_bifurcation_branch(const System& system, const State& state, Equatio
   const bool rests = !(rate > 1e-6 * std::sqrt(pull));
   if (rests && pull <= balanced * free_pull()) return true;
   const MatrixXd N = null_vectors(system, eq);
-  const VectorXd way = rests ? VectorXd(eq.a / pull) : s;  // direction of motion, or at rest of the acceleration
+  const VectorXd way = rests ? VectorXd(eq.a / pull) : s;  // direction of the motion; at rest, of the acceleration
   const Bend b = bend(system, state, way, rests ? 1 : rate, N);
   MatrixXd X;
   const MatrixXd V = free_part(system, eq, b.G, X);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> K(b.G * V);
-  // The free part of G is compared with that of M⁻¹ alone, and with the rounding of differences of terms that cancel.
+  // G V is compared with G M⁻¹Gᵀ, which ignores the joints, and with the rounding of differences of terms that cancel.
   double whole = 0;
   for (Index d = 0; d < N.cols(); ++d)
     whole = std::max(whole, std::pow(rounding * (rests ? 1 : rate) * uncancelled(system, eq, N.col(d)), 2));

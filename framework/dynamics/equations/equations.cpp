@@ -55,7 +55,7 @@ void add_product(const Equations& eq, const double* v, VectorXd& out) {
   }
 }
 
-// λ and a from a = M⁻¹ f. With a body of little inertia or on a long arm, Cq a − γ stays above rounding; solving again for this residual
+// λ and a from a = M⁻¹ f. If a body has little inertia or a long arm, Cq a − γ stays above rounding; a second solution for this residual
 // removes it.
 void solve_reactions(const System& system, Equations& eq) {
   constexpr double rounding = 1e-13;
@@ -77,7 +77,7 @@ void solve_reactions(const System& system, Equations& eq) {
   }
 }
 
-// Dependent rows require the same accelerations: with the computed λ nothing is left of Cq a − γ.
+// Whether dependent rows are consistent: with the computed λ, Cq a − γ vanishes.
 bool agree(const System& system, Equations& eq) {
   constexpr double little = 1e-2;    // relative to γ and a: near singular configurations a speed error of 1e-6 has this much effect
   constexpr double rounding = 1e-8;  // relative to the accelerations that the joints remove
@@ -89,7 +89,7 @@ bool agree(const System& system, Equations& eq) {
   return largest(eq.mu) <= little * std::max({size, largest(eq.a), free});
 }
 
-// Rows of released joints constrain nothing. What a joint found when it was engaged does not count as a violation.
+// Clears the rows of released joints. The offset that an engaged joint adopted is subtracted from its violation.
 void switch_rows(const System& system, const VectorXd& y, Equations& eq) {
   eq.released.clear();
   const double* held = y.data() + system.switch_begin();
@@ -222,7 +222,7 @@ void factor(const System& system, const VectorXd& y, Equations& eq) {
   eq.regular = true;
   for (FlexibleInertia& body : eq.flexible) eq.regular = eq.regular && invert(body);
   if (!eq.regular) return;
-  // Where C = 0 is not met exactly, redundant rows seem independent: their pivots grow as the square of the violation.
+  // If C = 0 is not met exactly, redundant rows seem independent: their pivots grow as the square of the violation.
   constexpr double times = 100;
   const double off = eq.permanent > 0 ? std::min(position_violation(system, eq), 1e-4) : 0,
                least = std::max(dependent_rows::lost, times * off * off);

@@ -50,12 +50,12 @@ struct Equations {
     bool bends;             ///< B_eta can be nonzero
   };
   std::vector<End> ends;
-  /// One row of an end, for products: three entries of L or B, counted through all blocks, at coordinate q.
+  /// One row of an end, for products: three entries of L or B, numbered over all blocks, at coordinate q.
   struct EndRow {
     int row, q, at, marker;
   };
   std::vector<EndRow> end_rows;
-  /// The data of a marker on a rigid body or the ground that a pose needs. Kept small because large systems are limited by memory access.
+  /// The data that `pose` needs of a marker on a rigid body or the ground. Kept small because memory access limits large systems.
   struct Point {
     int body;
     double x, y, angle;
@@ -131,20 +131,21 @@ bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
 /// Largest |C| over the mechanism's length, and |Ċ| over its length and fastest angular rate.
 double position_violation(const System&, const Equations&);
 double velocity_violation(const System&, const Eigen::VectorXd& y, const Equations&);
-/// Largest speed over its scale, never 0 [1/s].
+/// Largest ratio of a speed to its scale, never 0 [1/s].
 double fastest_rate(const System&, const Eigen::VectorXd& y);
-/// Smallest |C| that the rounding of the angles allows, after many turns, over the mechanism's length.
+/// Smallest |C|, over the mechanism's length, that the rounding of coordinates allows after many turns or far from the origin.
 double angle_rounding(const System&, const Eigen::VectorXd& y);
 
 /// Newton's iteration for q on C = 0, then s on Ċ = 0, at time t. `factor()` prepares, at a pose, what `subtract(violation, x)` needs to
 /// remove a violation from x, the coordinates or the speeds in y; `subtract` returns the largest change over its scale. `factor` returns
 /// false where this is impossible. Leaves pose and speed at the corrected state. Near a singular configuration, where motions branch and a
-/// small violation asks for a large correction, it iterates down to rounding, because the error is amplified, and does not jump to another
-/// branch: it fails where Newton's method does not contract fast, and leaves the speeds unchanged rather than change their direction.
+/// small violation requires a large correction, it iterates down to rounding, because the error is amplified. It does not jump to another
+/// branch: it fails if Newton's method does not converge fast, and leaves the speeds unchanged if the correction would change their
+/// direction.
 /// @returns false if it does not converge
 template <class Factor, class Subtract>
 bool onto_constraints(const System& system, double t, Eigen::VectorXd& y, Equations& eq, Factor factor, Subtract subtract) {
-  constexpr double still_good = 1e-8;  // with so many turns that rounding exceeds this, it fails
+  constexpr double still_good = 1e-8;  // it fails if rounding, after many turns, exceeds this
   const double known = angle_rounding(system, y), enough = std::max(1e-13, known), good = std::max(1e-11, std::min(8 * known, still_good));
   constexpr double contracts = 0.1;                // a jump between branches leaves at least a quarter of the violation
   constexpr double amplified = 1e3, turns = 1e-6;  // relative to the violation; to the fastest speed
@@ -217,7 +218,7 @@ void visit_jacobian(const Equations& eq, Put put) {
 }
 
 /// Effect of clearance joint c in an evaluated state: that of its contact, or of its massless link. The link's normal force is that of the
-/// constraint row, acts at the centres, and is negative where the link pushes, since a wall cannot pull.
+/// constraint row and acts at the centres; it is negative if the link pushes: a wall would have to pull.
 ContactEffect clearance_effect(const System&, const Equations&, std::size_t c);
 
 /// Wrench of a joint at one of its ends, −L_iᵀλ.

@@ -17,7 +17,7 @@ namespace {
 
 using Contacts = std::vector<UnilateralContact>;
 
-// The unknowns of a contact, as members of it.
+// Visits the indices of a contact's unknowns.
 template <class Contact, class Visit>
 void visit_unknowns(Contact& k, const Visit& visit) {
   visit(k.normal);
@@ -50,7 +50,7 @@ std::vector<std::vector<std::size_t>> sets_apart(std::span<const UnilateralConta
   return out;
 }
 
-// Forces under which all contacts stay closed and stick, if they all push and friction can hold.
+// Forces under which all contacts stay closed and stick; nothing if they cannot.
 std::optional<VectorXd> holding(const Contacts& contacts, const MatrixXd& W, const VectorXd& c) {
   constexpr double rounding = 1e-11, within = 1e-9;
   if (std::ranges::any_of(contacts, [](const UnilateralContact& k) { return k.sliding >= 0 || k.preload > 0; })) return std::nullopt;

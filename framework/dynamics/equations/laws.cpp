@@ -25,7 +25,7 @@ double sized_by(const SignalLaw& law, const Equations& eq, double t, const doubl
   return held ? law.sided->value(t, in, slope, eq.law_sides.data() + law.first_side) : law.of(t, in, slope);
 }
 
-// g_x from the laws' slopes: the columns of own states.
+// g_x: the columns of own states among the laws' slopes.
 void own_slopes(const System& system, const MatrixXd& slopes, MatrixXd& g_x) {
   g_x.setZero();
   for (std::size_t k = 0; k < system.signals.size(); ++k) {

@@ -19,8 +19,8 @@ void law_slopes(const System&, const Equations&, double t, Eigen::MatrixXd& slop
 /// work in eq's own scratch.
 void follow_own_states(const System&, Equations&, double t, double weight, const double* base, double* x);
 void filter_own_states(const System&, const State&, Equations&, double weight, double* v);
-/// What the laws add to the tangent: −Σ d (F_σ ∂σ/∂q)ᵀ, likewise for s, where d is the effect of a unit force. Where own states follow the
-/// motion, F_σ + F_x (1/weight − g_x)⁻¹ g_σ replaces F_σ.
+/// Contribution of the laws to the tangent: −Σ d (F_σ ∂σ/∂q)ᵀ, likewise for s, where d is the effect of a unit force. If own states follow
+/// the motion, F_σ + F_x (1/weight − g_x)⁻¹ g_σ replaces F_σ.
 class LawTangent {
  public:
   explicit LawTangent(const System&);

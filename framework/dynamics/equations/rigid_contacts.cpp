@@ -22,7 +22,7 @@ bool is_closed(const System& system, const State& state, std::size_t k) {
   return k < system.contacts.size() && is_rigid(system.contacts[k]) && state.impact_rate[k] > 0;
 }
 
-// The state of the rest of the mechanism: closed rigid contacts open, and without the friction that they could affect.
+// The state with closed rigid contacts opened and without the friction that their forces could affect.
 State without_rigid(const System& system, const State& state) {
   State out = state;
   for (std::size_t k = 0; k < out.friction.size(); ++k) {
@@ -57,12 +57,12 @@ std::optional<VectorXd> poisson(const Closed& closed, std::span<const double> e,
   return VectorXd(*compression + given + *more);
 }
 
-// Effective restitution of a contact: 0 where the separation speed or the rise would be too small to resolve.
+// Effective restitution of a contact: 0 if the separation speed or the opening would be too small to resolve.
 struct Bounce {
   double e;
   std::optional<double> at_rest = {};  ///< if e is 0 for that reason: when the sequence of decreasing bounces ends
 };
-// Does a contact that parts at this speed rise enough to be resolved?
+// Whether a contact that separates at this speed opens far enough to be resolved.
 bool shows(const ContactPair& pair, double parts, double acceleration) {
   constexpr double times = 20;  // multiple of the slack within which a gap counts as closed
   return parts > pair.slowest_impact && (!(acceleration < 0) || parts * parts > -2 * acceleration * times * pair.slack);
@@ -82,8 +82,8 @@ struct Meeting {
   VectorXd before, acceleration;
 };
 
-// Which contacts part under the impulses x. A contact that would part too slowly to be resolved stays closed, such as the corners of a
-// block that has rocked: the impulses that stop it, and the slips that stop with it, are added to x.
+// Which contacts separate under the impulses x. A contact that would separate too slowly to be resolved, such as the corner of a rocking
+// block, stays closed: the impulses that stop it, and slips that are as slow, are added to x.
 std::vector<bool> parting(const Meeting& m, std::span<const double> e, double slow, VectorXd& x) {
   const VectorXd after = m.before + m.W * x;
   double fall = 0;
@@ -94,7 +94,7 @@ std::vector<bool> parting(const Meeting& m, std::span<const double> e, double sl
   for (std::size_t i = 0; i < e.size(); ++i) {
     const UnilateralContact& k = m.closed.unknowns[i];
     const bool opens = after[k.normal] > slow;
-    const bool goes_on = m.acceleration[k.normal] > 0;  // slow but accelerating, such as a disc lifted straight out of a row
+    const bool goes_on = m.acceleration[k.normal] > 0;  // slow but accelerating, such as a disc that is lifted out of a row
     out.push_back(opens && (e[i] > 0 || goes_on || shows(m.system.contacts[at(m.closed.contact[i])], after[k.normal], fall)));
     if (out.back()) continue;
     creeps = creeps || opens;
@@ -192,7 +192,7 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
   if (by_poisson && std::ranges::any_of(e, [](double each) { return each > 0; }))  // contacts that were closed return their impulse too
     for (std::size_t i = 0; i < e.size(); ++i) e[i] = system.contacts[at(closed.contact[i])].rigid->restitution;
   auto x = by_poisson ? poisson(closed, e, W, before) : newton_impulses(system, closed, e, W, before, before);
-  if (!x) {  // bodies wedged between others cannot all part with restitution e
+  if (!x) {  // bodies wedged between others cannot all separate with restitution e
     std::ranges::fill(e, 0.0);
     x = newton_impulses(system, closed, e, W, before, before);
   }
@@ -240,7 +240,7 @@ void let_others_hold(const System& system, const State& state, const Equations& 
 
 namespace {
 
-// Are these slips or gaps, which no force holds, kept at 0 by the forces that hold others? Then they need no force of their own.
+// Whether this slip or gap, which no force holds, is kept at 0 by the forces that hold others: then it needs no force of its own.
 bool is_held_by_others(const MatrixXd& W, const std::vector<Index>& holding, Index row) {
   constexpr double dependent = 1e-10;
   const auto n = static_cast<Index>(holding.size());
@@ -257,7 +257,7 @@ bool is_held_by_others(const MatrixXd& W, const std::vector<Index>& holding, Ind
   return W(row, row) - by.dot(least_norm.solve(by)) <= dependent * W(row, row);
 }
 
-// What each closed contact does under the forces x.
+// Whether each closed contact opens, sticks or slides under the forces x.
 enum class Doing { opens, sticks, slides };
 std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorXd& c, const VectorXd& x) {
   constexpr double nearly = 1e-9, limit = 1e-8;
@@ -284,7 +284,7 @@ std::vector<Doing> doings(const Closed& closed, const MatrixXd& W, const VectorX
 
 }  // namespace
 
-// Where the forces are not unique, one solution is used. A contact that it neither presses nor lets open stays closed.
+// If the forces are not unique, one solution is used. A contact with no force and no opening in it stays closed.
 bool decide_rigid(const System& system, State& state, Equations& eq) {
   VectorXd dy(system.n_y());
   if (!evaluate(system, without_rigid(system, state), eq, dy)) return false;

@@ -20,7 +20,7 @@ Closed closed_contacts(const System&, const State&, const Equations&);
 /// Impulses by Newton's law of restitution: a gap that closed at speed −v⁻ opens at −e v⁻ or more; a slip that friction stops continues at
 /// −e_T times its speed. Unknowns are the columns of W.
 /// @param e  effective restitution of each contact   @param before, free  v⁻, and the speeds without impulses
-/// @returns nothing where none are found
+/// @returns nothing if none are found
 std::optional<Eigen::VectorXd> newton_impulses(const System&, const Closed&, std::span<const double> e, const Eigen::MatrixXd& W,
                                                const Eigen::VectorXd& before, const Eigen::VectorXd& free);
 /// Records the energy that impulses x remove from the motion, computed with the mean of the speeds before and after.
@@ -34,17 +34,17 @@ struct Blow {
   double approach;                     ///< speed before it [m/s]
   double separation;                   ///< speed after it; 0: it stays closed [m/s]
   double impulse;                      ///< normal [N s]
-  std::optional<double> at_rest = {};  ///< when it comes to rest, where it would continue to bounce too low to be resolved [s]
+  std::optional<double> at_rest = {};  ///< when it comes to rest, if its further bounces are too low to be resolved [s]
 };
 
 /// The impact, at one instant, of contacts that touch and of the rigid contacts that are closed: changes the speeds, records the energy
-/// lost, and closes the contacts that do not part. Whether closed contacts, dry contacts and joints stick or slide afterwards is left
+/// lost, and closes the contacts that do not separate. Whether closed contacts, dry contacts and joints stick or slide afterwards is left
 /// undecided.
-/// @returns nothing in a singular configuration or where no impulses are found; the state is then invalid
+/// @returns nothing in a singular configuration or if no impulses are found; the state is then invalid
 std::optional<std::vector<Blow>> strike(const System&, std::span<const int> touching, State&, Equations&);
 
 /// Decides which closed rigid contacts stay closed and which of these stick: under their forces no gap closes further, and no contact
-/// pulls. Contacts that slide in the given state continue to slide; all other friction is unchanged. @returns false where there are no such
+/// pulls. Contacts that slide in the given state continue to slide; all other friction is unchanged. @returns false if there are no such
 /// forces
 bool decide_rigid(const System&, State&, Equations&);
 

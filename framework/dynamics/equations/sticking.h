@@ -8,15 +8,15 @@
 /// instead of as rows of Cq. Theory: docs/theory/friction.md, docs/theory/impact.md.
 namespace pintle {
 
-/// The friction at this place of State::friction sticks.
+/// Whether the friction at this index of State::friction sticks.
 bool sticks(const System&, const State&, std::size_t at);
-/// It is friction in a released joint, and has no effect.
+/// Whether it is friction in a released joint, which has no effect.
 bool rubs_in_released_joint(const System&, const State&, std::size_t at);
-/// This contact is rigid and closed, and the accelerations determine its normal force.
+/// Whether this contact is rigid and closed, and the accelerations determine its normal force.
 bool holds_gap(const System&, const State&, std::size_t contact);
-/// The law of the friction at this place; nullptr where that is not dry.
+/// The law of the friction at this index; nullptr if it is not dry.
 const Coulomb* dry_law(const System&, std::size_t at);
-/// State of the friction at this place, in evaluated equations: force, slip, and the most it can hold, μ_s N; 0 without friction.
+/// State of the friction at this index, in evaluated equations: force, slip, and the most it can hold, μ_s N; 0 without friction.
 struct FrictionNow {
   double force, slip, holds;
 };
@@ -33,10 +33,10 @@ Eigen::MatrixXd respond_to_sticking(const System&, Equations&);
 /// Rates of the opening speeds and slips of eq.sticking for the accelerations eq.a.
 Eigen::VectorXd sticking_accelerations(const System&, const Equations&);
 /// Updates λ, a, f, contacts and joints to the forces under which no closed gap opens, no sticking contact accelerates along its slip, and
-/// sliding friction matches its normal force. Called by `accelerate`. @returns false where no such forces are found
+/// sliding friction matches its normal force. Called by `accelerate`. @returns false if no such forces are found
 bool hold_sticking(const System&, const State&, Equations&);
 /// Closes the gaps of closed rigid contacts, and removes their opening speeds and the slips of sticking contacts from the speeds; leaves
-/// `speed` as for the corrected state. After `project`. @returns false where the joints do not let a gap close
+/// `speed` as for the corrected state. After `project`. @returns false if the joints do not let a gap close
 bool remove_slip(const System&, State&, Equations&);
 /// Stores the forces determined in the state. After accelerate.
 void keep_friction(const System&, const Equations&, State&);
@@ -45,15 +45,15 @@ void keep_friction(const System&, const Equations&, State&);
 struct FrictionResponse {
   const Eigen::MatrixXd &W, &lambda;
 };
-/// Does a change of forces redistribute the whole load among the contacts, or only the change, which is then accurate to rounding?
+/// Whether a change of forces redistributes the whole load among the contacts, or only the change, which is then accurate to rounding.
 enum class Shares { all, change };
 /// Change of the forces T of eq.sticking from `before`: W δT = slips where it holds, T = −d μ N where it slides, with N from the
-/// multipliers λ + response δT or from its own contact. Where several forces could hold, as at two corners of a box on one ground, each
-/// bears a share according to the most it can hold: Σ T²/(μ_s N) is least, among forces that rigid contacts can exert. Nearly equal slips
-/// count as one. Not finite where no solution is found.
+/// multipliers λ + response δT or from its own contact. If several forces can hold, as at two corners of a box on the ground, each bears a
+/// share according to the most it can hold: Σ T²/(μ_s N) is least, among forces that rigid contacts can exert. Nearly equal slips count as
+/// one. Not finite where no solution is found.
 Eigen::VectorXd friction_change(const System&, const State&, const Equations&, const FrictionResponse&, Shares,
                                 const Eigen::VectorXd& slips, const Eigen::VectorXd& lambda, const Eigen::VectorXd& before);
-/// Only for what holds: forces that remove these slips, 0 for what slides.
+/// Holding forces that remove these slips; 0 for sliding friction.
 Eigen::VectorXd holding_forces(const System&, const Equations&, const Eigen::MatrixXd& W, const Eigen::VectorXd& slips);
 /// Forces and slips of eq.sticking, in the state and as last evaluated [N], [m/s].
 Eigen::VectorXd forces(const State&, const Equations&);

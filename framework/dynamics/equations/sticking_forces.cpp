@@ -63,7 +63,7 @@ VectorXd capacity(const System& system, const Equations& eq, const Places& of) {
   return out;
 }
 
-// The rigid contacts among the holding forces, by their places there.
+// The rigid contacts among the holding forces, by their indices there.
 std::vector<UnilateralContact> rigid_among(const System& system, const Sticking& s, const Places& hold) {
   std::vector<UnilateralContact> out;
   for (std::size_t i = 0; i < hold.size(); ++i) {
@@ -78,7 +78,7 @@ std::vector<UnilateralContact> rigid_among(const System& system, const Sticking&
 
 // Sliding friction in a rigid contact follows its own normal force, T = c N: response to 1 N of the normal force with this friction.
 struct Coupled {
-  MatrixXd W, lambda, by_friction;     ///< the last: of the multipliers, what its friction does alone
+  MatrixXd W, lambda, by_friction;     ///< by_friction: response of the multipliers to its friction alone
   Places normal, friction, of_joints;  ///< columns of such contacts, and of sliding friction in joints
   VectorXd c;
 };
@@ -142,7 +142,7 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
     return out;
   };
   VectorXd sliding = VectorXd::Zero(loads.size()), left = missed(sliding);
-  const double others = largest(before) + largest(lambda) + largest(eq.f);  // relative to these, a load that vanishes is rounding
+  const double others = largest(before) + largest(lambda) + largest(eq.f);  // a load that is tiny relative to these is rounding
   double left_before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most && slide.size() > 0; ++i) {
     const double scale = largest(loads) + largest(left), error = largest(left);

@@ -42,7 +42,7 @@ Tangent::Tangent(const System& system) : ends_(most_ends, MarkerJacobian(system)
     if (body.modes() > 0) flexible_.emplace_back(body.modes());
 }
 
-// Notes the interaction with 0 for each block that it has; lay_out replaces these by places.
+// Records the interaction with 0 for each block that it has; lay_out replaces these by positions.
 void Tangent::add(const System& system, Interaction::Kind kind, std::size_t index, const JointEnds& ends, const WrenchPattern& pattern) {
   const auto moves = [&](std::size_t end) { return system.markers[at(ends.marker[end])].body != ground; };
   const auto owner = kind == Interaction::force     ? InternalStates::force

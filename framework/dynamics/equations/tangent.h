@@ -10,7 +10,7 @@
 namespace pintle {
 
 /// Derivatives of the residual of the equations of motion, r(q, s, a, λ, t) = M a + Cqᵀλ − f: ∂r/∂q, ∂r/∂s and ∂r/∂a = M, each n × n. Its
-/// pattern follows from the system alone: a block for each body and two for each pair of bodies whose interaction depends on their relative
+/// pattern depends only on the system: a block for each body and two for each pair of bodies whose interaction depends on their relative
 /// motion; pins and welds do not, and couple no bodies. Theory: docs/theory/tangent.md.
 class Tangent {
  public:
@@ -19,7 +19,7 @@ class Tangent {
   struct Place {
     int row, column;
   };
-  /// The place of each summand, in the order of `evaluate`; the same in every state. A place may have several summands.
+  /// The position of each summand, in the order of `evaluate`; the same in every state. A position may have several summands.
   const std::vector<Place>& places() const { return places_; }
 
   using Weights = TangentWeights;
@@ -41,7 +41,7 @@ class Tangent {
     int begin, stride;
   };
   /// An interaction that depends on poses or rates of its n markers. block[i][j]: first summand of ∂(force on body i)/∂(coordinates of body
-  /// j), by columns; −1 where there is none.
+  /// j), by columns; −1 if there is none.
   struct Interaction {
     enum Kind { joint, force, contact, friction } kind;
     std::size_t index, n;

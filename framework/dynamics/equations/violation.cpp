@@ -15,7 +15,7 @@ double velocity_violation(const System& system, const VectorXd& y, const Equatio
   return largest(eq.Cdot.cwiseProduct(system.row_scale)) / fastest_rate(system, y);
 }
 
-// Places far from the origin, as in a chain of thousands of links, round as angles of many turns do.
+// Coordinates far from the origin, as in a chain of thousands of links, lose digits as angles of many turns do.
 double angle_rounding(const System& system, const VectorXd& y) {
   double most = 0;
   for (Index b = 0; b < system.n_rigid(); b += 3)

@@ -9,7 +9,7 @@ namespace pintle {
 
 struct ForceEffect;
 
-/// An elastic belt between two pulleys, on which it does not slip. A radius is > 0 where the belt, running from a to b, goes round its
+/// An elastic belt between two pulleys, on which it does not slip. A radius is > 0 if the belt, running from a to b, passes around its
 /// pulley counter-clockwise. With d = r_b − r_a, δ = radius_b − radius_a and the angle τ of the span
 ///   |d| sin(ψ − τ) = δ,  ℓ = √(|d|² − δ²),  e = ℓ − δ τ + radius_b φ_b − radius_a φ_a,
 ///   tension = max(0, k (e − loose) + c ė) while e > loose, else 0.

@@ -81,7 +81,7 @@ std::vector<InternalState> internal_states(const FrictionLaw& law) {
   return all;
 }
 
-// Slip bends the bristles whatever the normal force.
+// Slip bends the bristles even without a normal force.
 ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry,
                        const double* x) {
   ContactEffect out;
@@ -142,7 +142,7 @@ void add_normal(const ContactPair& pair, double force, ContactEffect& effect) {
 
 namespace {
 
-// Velocity of a's middle relative to b's, and the part of its rate due to the rotation of the bodies alone.
+// Velocity of a's middle relative to b's, and the part of its rate due only to the rotation of the bodies.
 Vector2d speed_of_middles(const Gap& gap, const MarkerMotion& a, const MarkerMotion& b) {
   return a.v + a.w * perp(gap.arm_a) - b.v - b.w * perp(gap.arm_b);
 }

@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// Which relative speed friction opposes; see docs/theory/contact.md.
+/// The relative speed that friction opposes; see docs/theory/contact.md.
 enum class Sliding { material, geometric };
 
 /// Impact law of rigid bodies: Newton's restitution relates speeds, Poisson's relates impulses. docs/theory/impact.md
@@ -36,8 +36,8 @@ struct ContactPair {
   std::optional<FrictionLaw> friction;
   Sliding sliding = Sliding::material;
   double slowest_impact = 1e-6;  ///< lower bound of the latched approach speed; a rigid contact does not bounce more slowly [m/s]
-  bool follows = false;          ///< true: the latched speed grows with the approach speed during the contact; false: it is that at onset
-  int link = -1;                 ///< the joint that holds the centres apart; then no contact law acts. −1: a contact
+  bool follows = false;  ///< true: the latched speed grows with the approach speed during the contact; false: it stays that at onset
+  int link = -1;         ///< the joint that holds the centres apart; then no contact law acts. −1: a contact
   // For profiles, whose contact consists of several pairs, one after another:
   int pair = 0, pairs = 1;                                   ///< index of this pair, number of pairs
   bool profiles = false;                                     ///< false: a clearance joint
@@ -56,7 +56,7 @@ struct ContactPair {
 
 /// State of dry friction of a contact or joint, and of a rigid contact, with the force that the accelerations determine.
 struct DryFriction {
-  static constexpr double undecided = 2;  ///< the surfaces have met, but it is undecided whether they slide or stick: no friction
+  static constexpr double undecided = 2;  ///< the surfaces touch, but whether they slide or stick is undecided: no friction
   static constexpr double given = 3;      ///< of a rigid contact: both forces are prescribed by a time-stepping scheme
   double direction = undecided;           ///< −1, 1: they slide, a over b along Zn; 0: they stick
   double force = 0;                       ///< contact: force on a along Zn while it sticks; joint: force on b along the slip [N]
@@ -79,17 +79,17 @@ struct ContactEffect {
   std::array<double, most_internal> x_rate{};  ///< rates of its bristles
 };
 
-/// A massless link keeps its two centres apart: no contact law acts, and it does not open or close.
+/// Whether a massless link keeps its two centres apart: then no contact law acts, and it does not open or close.
 inline bool is_held(const ContactPair& pair) { return pair.link >= 0; }
 
 inline int written_marker(const ContactPair& pair) { return pair.written_on_a ? pair.a : pair.b; }
-/// Of an effect or of a contact of several pairs: the force that results give.
+/// The force written to results, from an effect or a contact of several pairs.
 template <class Effect>
 const Wrench& written_force(const ContactPair& pair, const Effect& effect) {
   return pair.written_on_a ? effect.on_a : effect.on_b;
 }
 
-/// Slack relative to the mechanism's length: the rounding that a closed gap may show.
+/// Slack relative to the mechanism's length, for the rounding of closed gaps.
 inline constexpr double touching_part = 1e-13;
 inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
 
@@ -97,7 +97,7 @@ inline bool is_rigid(const ContactPair& pair) { return pair.rigid.has_value(); }
 double contact_size(const ContactPair&, double mechanism);
 /// Overlap relative to contact_size beyond which no contact law here is valid.
 inline constexpr double deepest_valid = 0.1;
-/// The length that its depth is compared with: the clearance of a piece inside a hollow one, half the backlash of teeth, otherwise a
+/// The length with which its depth is compared: the clearance of a piece inside a hollow one, half the backlash of teeth, otherwise a
 /// hundredth of the size of the pieces [m].
 double fine_length(const ContactPair&, double mechanism);
 
@@ -106,7 +106,7 @@ inline Gap gap_between(const ContactPair& pair, const MovingPoint& a, const Movi
   return pair.flank ? evaluate(*pair.flank, a, b) : evaluate(pair.gap, a, b);
 }
 
-/// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is computed, and for profiles not even that
+/// @param impact_rate  latched approach speed [m/s]; 0 while open: then only the gap is computed; for profiles nothing
 /// @param dry  read for Coulomb friction, and for the normal force of a rigid contact
 /// @param x  the states of its bristles; read if it has any
 ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMotion& b, double impact_rate, const DryFriction& dry = {},
@@ -114,15 +114,14 @@ ContactEffect evaluate(const ContactPair&, const MarkerMotion& a, const MarkerMo
 
 /// The sliding speed that its friction opposes [m/s].
 double sliding_speed(const ContactPair&, const Gap&);
-/// It is closed and has bristle friction.
+/// Whether it is closed and has bristle friction.
 bool has_bristles(const ContactPair&);
 /// The bristles' states, named as in results; empty for another law.
 std::vector<InternalState> internal_states(const FrictionLaw&);
 
 /// Its friction law, if it is Coulomb's and the contact is closed; otherwise nullptr.
 const Coulomb* dry_friction(const ContactPair&);
-/// Wrenches on a and b of 1 N of friction, or of normal force; their power for unit rates gives the material slip, or the opening speed
-/// −rate.
+/// Wrenches on a and b of 1 N of friction, or of normal force; their power is the material slip, or the opening speed −rate.
 std::array<Wrench, 2> unit_friction(const ContactPair&, const Gap&);
 std::array<Wrench, 2> unit_normal(const ContactPair&, const Gap&);
 /// Adds friction, or the normal force of a rigid contact, to the effect of the contact.

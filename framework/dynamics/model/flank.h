@@ -11,7 +11,7 @@ namespace pintle {
 
 /// One of the two sides on which teeth with backlash meet: of two wheels, or of a pinion and its rack. Without backlash the pitch line or
 /// circles would roll on each other, C = [apart; slip]; with backlash the slip is free up to half the backlash in each direction. With the
-/// pressure angle α
+/// pressure angle α,
 ///   depth = side cos α C[1] − sin α C[0] − half,
 /// and the force N of the contact acts on the two with −∂depth/∂p N. Theory: docs/theory/gears.md
 struct Flank {

@@ -39,7 +39,7 @@ void turn_columns(double c, double s, Eigen::Matrix3Xd& B) {
   for (Index i = 0; i < B.cols(); ++i) B.col(i).head<2>() = turned(c, s, B.col(i).head<2>());
 }
 
-// Written-out factorization R = L Lᵀ, root = L⁻ᵀ.
+// Explicit factorization R = L Lᵀ, root = L⁻ᵀ.
 bool invert(const Eigen::Matrix3d& R, FlexibleInertia::Inverse& out) {
   if (!(R(0, 0) > 0)) return false;
   const double i0 = 1 / std::sqrt(R(0, 0)), l10 = R(1, 0) * i0, l20 = R(2, 0) * i0, d1 = R(1, 1) - l10 * l10;
@@ -121,8 +121,8 @@ bool invert(FlexibleInertia& e) {
   return invert(R, e.frame);
 }
 
-// Without foreshortening the shapes are eliminated first, since their block is 1. With it the frame is eliminated first, since then 1 −
-// B₁ᵀM₁⁻¹B₁ is left, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
+// Without foreshortening the shapes are eliminated first, since their block is 1. With it the frame is eliminated first; this leaves 1 −
+// B₁ᵀM₁⁻¹B₁, whose inverse is 1 + B₁ᵀ(M₁ − B₁B₁ᵀ)⁻¹B₁.
 void solve(FlexibleInertia& e, double* v) {
   Eigen::Map<Eigen::Vector3d> r(v + 3 * e.body);
   Eigen::Map<VectorXd> eta(v + e.begin, e.n);

@@ -14,8 +14,8 @@ using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
 ///   [ M    B   ]
 ///   [ Bᵀ 1 + E ],   M 3 × 3, B = [A S; h + ηᵀG] 3 × n, E = 0.
 /// For a body with geometric stiffness, S and h have a part linear in η, and E = BᵀM⁻¹B − B₁ᵀM₁⁻¹B₁, where M₁ and B₁ are without
-/// foreshortening. So the inertia of the shapes, apart from the momentum that they carry, is unchanged, which keeps the mass matrix
-/// positive definite. Theory: docs/theory/motion.md, Eqs. (6)–(12) of Ebrahimi, Salahshoor, Moradi (2017).
+/// foreshortening. So 1 + E − BᵀM⁻¹B, the inertia of the shapes with the frame free, is that without foreshortening, which keeps the mass
+/// matrix positive definite. Theory: docs/theory/motion.md, Eqs. (6)–(12) of Ebrahimi, Salahshoor, Moradi (2017).
 struct FlexibleInertia {
   explicit FlexibleInertia(const System&, int body);
 
@@ -27,7 +27,7 @@ struct FlexibleInertia {
     Eigen::Matrix3Xd B;
     Eigen::RowVectorXd j;  ///< ½ ∂J/∂η
   } whole, linear;         ///< linear: without foreshortening, only for a body with geometric stiffness
-  struct Inverse {         ///< and its root: inverse = root rootᵀ
+  struct Inverse {         ///< with its root: inverse = root rootᵀ
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), root = Eigen::Matrix3d::Zero();
   } frame,    ///< (M − BBᵀ)⁻¹ without foreshortening: of the frame, with the shapes free
       rigid;  ///< M⁻¹, only for a body with geometric stiffness

@@ -125,7 +125,7 @@ ForceEffect effect(const SizedForce& f, M a, M b, const double* laws) {
   e.input = e.on_a.head<2>().dot(a.v) + e.on_a[2] * a.w + e.on_b.head<2>().dot(b.v) + e.on_b[2] * b.w;
   return e;
 }
-// With its components held: the laws describe what these depend on.
+// With its components held; their dependence on the motion is in the tangent of the laws.
 WrenchPattern pattern(const SizedForce& f) {
   if (f.way == SizedForce::follows) return {{{{}, {false, true}}}, false};
   return f.way == SizedForce::pull ? between(false) : constant;

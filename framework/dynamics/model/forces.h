@@ -87,7 +87,7 @@ UnitWrenches unit_wrenches(const SizedForce&, bool other, const MarkerMotion& a,
 /// How wrenches and internal states depend on each other and on the motion.
 InternalTangent internal_tangent(const Force&, const ForceEffect& now, const MarkerMotion& a, const MarkerMotion& b);
 
-/// It needs b's direction u.
+/// Whether it needs b's direction u.
 inline bool turns_with_b(const Force& f) {
   const auto* point = std::get_if<PointForce>(&f);
   const auto* sized = std::get_if<SizedForce>(&f);

@@ -26,7 +26,7 @@ double slip(const Joint& joint, const JointFriction& rub, const MarkerMotion& a,
   return power(unit_friction(joint, rub, a, b), a.v, a.w, b.v, b.w);
 }
 
-// d/dt of u·(v_b − v_a − w_a Z d): u rotates with w_a, and d changes at v_b − v_a.
+// d/dt of u·(v_b − v_a − w_a Z d): u rotates with w_a, and ḋ = v_b − v_a.
 double slip_acceleration(const Joint& joint, const JointFriction& rub, const MarkerMotion& a, const MarkerMotion& b) {
   const double free = power(unit_friction(joint, rub, a, b), a.a0, a.alpha0, b.a0, b.alpha0);
   if (turns(joint)) return free;

@@ -18,7 +18,7 @@ struct JointFriction {
   double preload = 0;  ///< normal force without load [N]
 };
 
-/// Wrenches on a and b of 1 N of friction along the slip of b; their power for unit rates gives the slip.
+/// Wrenches on a and b of 1 N of friction along the slip of b; their power is the slip.
 std::array<Wrench, 2> unit_friction(const Joint&, const JointFriction&, const MarkerMotion& a, const MarkerMotion& b);
 /// Speed of b's surface relative to a's [m/s], and its rate with all coordinate accelerations zero [m/s²].
 double slip(const Joint&, const JointFriction&, const MarkerMotion& a, const MarkerMotion& b);

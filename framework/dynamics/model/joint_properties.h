@@ -34,7 +34,7 @@ struct JointProperties {
   /// Names of its constraint equations in messages. One called "angle" is in radians, others in metres.
   std::array<const char*, 3> equations = {};
   bool force = true, couple = false;            ///< which parts of its reaction are written
-  bool angles = true;                           ///< turning a marker can change its rows
+  bool angles = true;                           ///< rotation of a marker can change its rows
   std::array<bool, most_ends> directions = {};  ///< the markers whose direction u it uses
   JointSymbol symbol = JointSymbol::none;
   WrenchPattern curvature = {};  ///< of its wrenches for given λ

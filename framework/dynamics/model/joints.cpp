@@ -154,7 +154,7 @@ bool is_angle_row(const Joint& j, int row) { return std::string_view(row_name(j,
 
 namespace {
 
-// Called at every evaluation: for so many kinds std::visit uses a table of pointers, this uses a switch.
+// Called at every evaluation: a switch, because std::visit uses a table of pointers for so many kinds.
 template <std::size_t kind = 0, class F>
 void of_its_kind(const Joint& joint, const F& f) {
   if constexpr (kind < std::variant_size_v<Joint>) {

@@ -76,8 +76,8 @@ inline const JointProperties& properties_of(const Joint& joint) {
 }
 inline int rows(const Joint& j) { return properties_of(j).rows(); }
 
-/// The markers that a joint connects, in order: its ends. They are its first members, and its only ones of type int; a relation stores them
-/// in a list.
+/// The markers that a joint connects, in order: its ends. They are the first members of the joint and its only ones of type int; a relation
+/// stores them in a list.
 JointEnds ends_of(const Joint&);
 
 /// The law of a driver, nullptr for other joints.

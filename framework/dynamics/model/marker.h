@@ -12,7 +12,7 @@ namespace pintle {
 inline constexpr int ground = -1;
 
 /// A material point of a body with a direction fixed to it. Joints, springs, loads, contacts and drawings access bodies only through
-/// markers, and need not know which kind of body carries them.
+/// markers, and do not depend on the kind of body.
 struct Marker {
   int body = ground;                               ///< index into System::bodies, or `ground`
   Eigen::Vector2d x_BP = Eigen::Vector2d::Zero();  ///< position from the mass centre, body axes [m]

@@ -58,8 +58,7 @@ void move_on_flexible(const System& system, const Marker& marker, const VectorXd
   m.w += marker.slope.dot(rate);
 }
 
-// Same order of operations as in the two functions above and in `pose` and `speed`, so that a gap is identical to the last bit by either
-// way.
+// Same order of operations as in the two functions above and in `pose` and `speed`, so that both give a gap identical to the last bit.
 MovingPoint moving_point(const System& system, int marker, const VectorXd& y) {
   const Marker& m = system.markers[at(marker)];
   if (m.body == ground) return {m.x_BP, Vector2d::Zero(), 0, m.angle};

@@ -14,7 +14,7 @@
 /// Signals of the motion, laws of them, and the scene's own states, whose rates are such laws. Theory: docs/theory/signals.md.
 ///
 /// An expression of a scene is a `Law` (scene.h), created by read_law or ActingSignals; SignalMaker (build/signals.h) converts it into a
-/// SignalLaw of the system. law_at (signal_values.h) is its value in any state, from t and y alone; in equations evaluated up to
+/// SignalLaw of the system. law_at (signal_values.h) gives its value in any state, from t and y only; in equations evaluated up to
 /// apply_forces, the values of System::laws are in Equations::laws. The own states of a scene are y[own_state(system, i)], and an event may
 /// set them.
 namespace pintle {
@@ -41,7 +41,7 @@ struct MotionSignal {
   auto operator<=>(const MotionSignal&) const = default;
 };
 bool of_two(MotionSignal::Kind);
-/// It is a speed of the motion, not a position or an own state.
+/// Whether it is a speed of the motion, not a position or an own state.
 bool is_speed(MotionSignal::Kind);
 
 /// Its derivatives with respect to the poses (r, angle) of its markers and to their rates.

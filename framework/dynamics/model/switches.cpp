@@ -7,7 +7,7 @@ namespace pintle {
 
 namespace {
 
-// The row couples the motions of bodies rather than fixing a position: gears, racks, rolling discs, belts and linear relations.
+// Whether the row couples motions of bodies instead of fixing a position: gears, racks, rolling discs, belts and linear relations.
 bool moves_together(const Joint& joint, int row) {
   if (const auto* relation = std::get_if<Relation>(&joint)) return !relation->curve;
   const std::string_view name = properties_of(joint).equations[at(row)];

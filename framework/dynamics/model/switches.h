@@ -24,7 +24,7 @@ struct Switch {
 /// −1: none.
 int latched_row(const Joint&);
 
-/// Is the element released? Always false where no event can release it.
+/// Whether the element is released; always false if no event can release it.
 bool is_released(const System&, Switch::Of, int index, const Eigen::VectorXd& y);
 /// Sets the switches in the state to their start values.
 void begin_switches(const System&, Eigen::VectorXd& y);

@@ -91,24 +91,24 @@ struct System {
   int n_y() const { return switch_begin() + 2 * static_cast<int>(switches.size()); }
 };
 
-/// Fills what follows from the lists: coordinates, rows, integrals. Call it once the lists are complete.
+/// Fills the data that follow from the lists: coordinates, rows, integrals. Call it once the lists are complete.
 /// @param scheme_loses  adds an integral for the energy that an implicit scheme removes
 void number(System&, bool scheme_loses = false);
 /// Internal states of an owner, and the owner's name in results; the same for all pairs of two profiles.
 std::vector<InternalState> states_of(const System&, const InternalStates&);
 std::string owner_name(const System&, const InternalStates&);
-/// Joint k is the massless link of a clearance joint.
+/// Whether joint k is the massless link of a clearance joint.
 bool is_link(const System&, int joint);
 
 /// Σ r²/J of bodies whose teeth meet: mobility that their rotation adds for a unit force at both pitch circles; otherwise 0 [1/kg].
 double tooth_mobility(const System&, const ContactPair&);
 /// Sum of 1/m of the bodies that meet in a contact, for teeth including the effect of rotation [1/kg].
 double lightness(const System&, const ContactPair&);
-/// The latched approach speed where surfaces overlap without a known impact: that of the impact that would reach this depth [m/s].
+/// The latched approach speed if surfaces overlap without a known impact: that of the impact that would reach this depth [m/s].
 double latched_at(const System&, const ContactPair&, double depth);
 
-/// Does bending of its body affect a joint's rows at this marker? Not where the shapes are zero, as at a pin that the body's frame is fixed
-/// to.
+/// Whether bending of its body affects a joint's rows at this marker: not where the shapes are zero, as at a pin to which the body's frame
+/// is fixed.
 bool feels_shapes(const System&, const Joint&, int marker);
 
 /// Clearance joints, whose contacts come before those of profiles.

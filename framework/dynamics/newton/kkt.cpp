@@ -151,7 +151,7 @@ Kkt::Kkt(const System& system, const Equations& eq, const Tangent& tangent) : da
   for (int i = 0; i < size; ++i) places.push_back({i, i});
   std::vector<int> where;
   Pattern pattern = compress(size, places, where);
-  constexpr int full_enough = 3;  // measured: KLU is faster from a dozen unknowns on, unless a third of the entries are nonzero
+  constexpr int full_enough = 3;  // measured: KLU is faster for a dozen unknowns or more, unless a third of the entries are nonzero
   if (size > dense_size || full_enough * pattern.entries() < size * size) {
     d.sparse.emplace(std::move(pattern), elimination_order(system, eq, J));
   } else {

@@ -23,19 +23,20 @@ class Kkt {
   ~Kkt();
   Kkt(Kkt&&) noexcept;
 
-  /// @param J  the summands of Tangent::evaluate. After pose. This code allocates nothing; KLU does at the first call and when its pivots
-  /// have become bad.
-  /// The equation of a released row is −y = (its right-hand side y).
+  /// @param J  the summands of Tangent::evaluate. After pose. Allocates only in KLU: at the first call, and when its pivots have become
+  /// bad.
+  /// The equation of a released row is −y = right-hand side.
   /// @returns false if singular to working precision, although dependent rows are allowed for
   bool factor(const System&, const Equations&, const std::vector<double>& J);
-  /// x, y of  J x + Cqᵀ y = x,  Cq x = y, in place: n and n_rows. For dependent rows, y is the solution of least norm, with rows in metres
-  /// scaled by the mechanism's length; contradictory rows are satisfied by x in the least-squares sense. @pre factor returned true
+  /// Replaces the right-hand sides x, y (n, n_rows) by the solution of  J x' + Cqᵀ y' = x,  Cq x' = y. For dependent rows, y is the
+  /// solution of least norm, with rows in metres scaled by the mechanism's length; contradictory rows are satisfied by x in the
+  /// least-squares sense. @pre factor returned true
   void solve(Eigen::VectorXd& x, Eigen::VectorXd& y);
 
   /// Discards all results: the next factorization starts from scratch.
   void forget();
 
-  bool dependent() const;        ///< the last factorization found dependent rows
+  bool dependent() const;        ///< whether the last factorization found dependent rows
   double inconsistency() const;  ///< of the last solve: residual over right-hand side, both scaled; 0 if independent
   bool sparse() const;
   const char* solver() const;  ///< "dense LU" or "sparse LU (KLU)"

@@ -13,7 +13,7 @@ namespace pintle {
 namespace dependent_rows {
 
 inline constexpr double lost = 1e-12;    ///< a pivot below this, relative to its original entry, is rounding
-inline constexpr double held_up = 1e-8;  ///< the same limit with the shift: below it only the shift makes the pivot nonzero
+inline constexpr double held_up = 1e-8;  ///< the same limit with the shift: a smaller pivot is nonzero only because of the shift
 inline constexpr double shift = 1e-10;   ///< relative to the size of the matrix: far above rounding, far below independent pivots
 
 /// Shift of each row: equal for all rows in the given units, so that refinement gives multipliers of least norm in these units; 1e-10 of
@@ -37,7 +37,7 @@ class Refinement {
       : unit_(unit), b_(unit), left_(unit), before_(unit), last_(unit), rows_(rows) {}
 
   /// z: b on entry. solve(v): v ← shifted⁻¹ v; subtract_product(z, out): out −= K z; shifts_made: signed shifts of the rows of multipliers,
-  /// given where the multipliers themselves are computed and their part that does no work is to be removed. No allocation.
+  /// not null if the multipliers themselves are computed and their part that does no work must be removed. No allocation.
   template <class Solve, class SubtractProduct>
   void operator()(Eigen::VectorXd& z, Solve solve, SubtractProduct subtract_product, const Eigen::VectorXd* shifts_made = nullptr) {
     constexpr int most = 8;

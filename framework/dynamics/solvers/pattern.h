@@ -17,7 +17,7 @@ struct Pattern {
   int entries() const { return static_cast<int>(row.size()); }
 };
 
-/// The pattern of summands at `places`; where[i] ← the entry that summand i belongs to. A place may have several summands. Time and memory
+/// The pattern of summands at `places`; where[i] ← the entry that summand i belongs to. Several summands may share a place. Time and memory
 /// are linear in the size and the number of places.
 /// @pre 0 ≤ row, column < size
 Pattern compress(int size, const std::vector<Pattern::Place>& places, std::vector<int>& where);

@@ -189,7 +189,7 @@ Schur::Schur(const System& system) : n_(system.n_rows()), data_(std::make_unique
     if (!begun[i]) zeros_.push_back(static_cast<int>(i));
 }
 
-// Divides the rows into the parts that `places` connect. @returns the index of the value for each place
+// Divides the rows into parts connected by `places`. @returns the index of the value for each place
 std::vector<int> Schur::divide(const std::vector<Pattern::Place>& places) {
   std::vector<int> part(at(n_)), row_in_part(at(n_)), where;
   std::iota(part.begin(), part.end(), 0);
@@ -265,13 +265,13 @@ bool Schur::factor(const std::vector<Block>& B, const std::vector<RowBlock>& B_e
   return factor_by_rank(independent ? bound(least) : least);
 }
 
-// What rounding leaves of the quotient for dependent rows; more if bodies are 1e12 times as heavy as others.
+// The quotient that rounding leaves for dependent rows; larger if some bodies are 1e12 times as heavy as others.
 double Schur::bound(double least) const {
   const int width = sparse() ? data_->sparse->width() : n_;
   return least > dependent_rows::lost ? least : 4 * width * std::numeric_limits<double>::epsilon();
 }
 
-// Relative size vᵀSv / Σ S_ii v_i² of the combination of rows that the smallest pivot belongs to. Where a row is only a small part of the
+// Relative size vᵀSv / Σ S_ii v_i² of the combination of rows that the smallest pivot belongs to. If a row is only a small part of the
 // combination, rounding may affect its pivot far more than this quotient.
 double Schur::smallest_quotient() const {
   if (sparse()) return data_->sparse->smallest_quotient(values_);

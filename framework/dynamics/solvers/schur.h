@@ -44,7 +44,7 @@ class Schur {
   double least() const { return least_; }       ///< smallest ratio of a pivot to its original entry
   double kept() const { return kept_; }         ///< the same for pivots that are not lost: small near a singular configuration
   bool weak() const { return least_ < few; }    ///< dependent, nearly dependent, or very different inertias
-  /// Rows other than the `permanent` redundant ones are dependent or nearly so, where this can be detected.
+  /// Whether rows other than the `permanent` redundant ones are dependent or nearly so, if this can be detected.
   bool near_singular(int permanent) const { return lost_ > permanent || ((lost_ == 0 || !sparse()) && kept_ < few); }
   /// Removes from μ, for the configuration of the last factorization, the part that does no work: Cqᵀμ is unchanged. No effect for
   /// independent rows.
@@ -58,7 +58,7 @@ class Schur {
   double nonzeros() const;     ///< of the factor
 
  private:
-  /// A product of two rows of ends on one body: three entries of B each, counted through all blocks, times the body's inverse inertia; and
+  /// A product of two rows of ends on one body: three entries of B each, numbered over all blocks, times the body's inverse inertia; and
   /// the contribution of the modal coordinates of a flexible body.
   struct Term {
     int to, a, b, w;

@@ -11,9 +11,8 @@ namespace pintle {
 /// (either triangle, and the whole diagonal): AMD, or nested dissection where AMD gives much fill.
 std::vector<int> fill_reducing_order(int size, std::vector<Pattern::Place> places);
 
-/// S = L D Lᵀ of a sparse symmetric matrix without pivoting. Ordered and analysed once, by CHOLMOD (AMD, or nested dissection where AMD
-/// gives much fill). A thin factor is computed column by column by LDL, without allocation; a thick one, with more than `thick` operations
-/// per entry of L, in dense blocks by CHOLMOD.
+/// S = L D Lᵀ of a sparse symmetric matrix without pivoting. Ordered as above and analysed once, by CHOLMOD. A thin factor is computed
+/// column by column by LDL, without allocation; a thick one, with more than `thick` operations per entry of L, in dense blocks by CHOLMOD.
 class SparseLdl {
  public:
   static constexpr double thick = 40;
@@ -28,12 +27,12 @@ class SparseLdl {
   const std::vector<int>& diagonal() const;  ///< entry of S_ii
   /// @returns the smallest ratio of a pivot to its diagonal entry; 0: not factored, a pivot was not positive
   double factor(const std::vector<double>& values);
-  /// Number of pivots below `ratio` of their diagonal entry; lowers `least` to the smallest ratio of the others.
+  /// Number of pivots below `ratio` times their diagonal entry; lowers `least` to the smallest ratio of the others.
   /// @pre as solve; values as factored
   int below(const std::vector<double>& values, double ratio, double& least) const;
   /// xᵀSx / Σ S_ii x_i² for x = S⁻¹e, where e is for the row of the smallest pivot. @pre as for solve; values as factored
   double smallest_quotient(const std::vector<double>& values);
-  /// Most entries in a row of L + Lᵀ, so many that rounding can add up to in a row. @pre as for solve
+  /// Largest number of entries in a row of L + Lᵀ: the number of roundings that can add up in a row. @pre as for solve
   int width();
   void solve(double* x);  ///< x ← S⁻¹ x. @pre factor returned a positive number
   /// out −= S x

@@ -14,7 +14,7 @@ namespace pintle {
 struct SparseLu::Data {
   Data(Pattern p, std::vector<int> order) : pattern(std::move(p)) {
     klu_defaults(&common);
-    common.btf = 0;     // otherwise rows would be matched to columns by pattern alone
+    common.btf = 0;     // otherwise only the pattern would match rows to columns
     common.scale = -1;  // scaled by the caller; this also skips checking the pattern each time
     symbolic = klu_analyze_given(pattern.size(), pattern.column_begin.data(), pattern.row.data(), order.data(), order.data(), &common);
     if (!symbolic) throw std::bad_alloc();
@@ -41,7 +41,7 @@ struct SparseLu::Data {
 
   const double* diagonal() const { return static_cast<const double*>(numeric->Udiag); }
 
-  // Multipliers, and with them entries, can only have grown where a pivot has become smaller.
+  // Multipliers, and thus entries, can have grown only where a pivot has become smaller.
   bool shrunk() const {
     constexpr double much = 0.1;
     bool any = false;
@@ -49,7 +49,7 @@ struct SparseLu::Data {
     return any;
   }
 
-  // Largest entry of a column of A over that of U, for the worst column: small where the pivots let entries grow.
+  // Largest entry of a column of A over that of U, for the worst column: small if the pivots let entries grow.
   double measure(const std::vector<double>& v) {
     klu_rgrowth(pattern.column_begin.data(), pattern.row.data(), const_cast<double*>(v.data()), symbolic, numeric, &common);
     return common.rgrowth;

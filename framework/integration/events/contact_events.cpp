@@ -32,7 +32,7 @@ std::string ContactEvents::name(int event) const {
   return "contact \"" + system_.contact_names[at(contact)] + "\"";
 }
 
-// Its onset would be where the contact of a neighbouring pair continues.
+// Whether its onset would be the continuation of a neighbouring pair's contact.
 bool ContactEvents::continues_another(int contact) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   return pair.profiles && std::ranges::any_of(pair.beyond, [&](int other) { return other >= 0 && log_.touching(other); });
@@ -62,8 +62,8 @@ Guard ContactEvents::guard(int event, const State& state) const {
   return is_rigid(system_.contacts[at(event)]) ? pressed(event, state) : gap_of(system_, event, state);
 }
 
-// Normal force of a closed rigid contact, relative to the largest so far (in N while there was none), plus a small amount; negative once
-// its forces have let it open.
+// Normal force of a closed rigid contact, relative to the largest so far (in N while there was none), plus a small amount; negative once it
+// has opened under its forces.
 Guard ContactEvents::pressed(int contact, const State& state) const {
   if (!(state.impact_rate[at(contact)] > 0)) return {-1};
   const double load = state.friction[at(contact)].load;
@@ -96,8 +96,8 @@ std::optional<double> rise(const F& guard, double begin, const Guard& from, doub
 
 }  // namespace
 
-// A long step may move a body through a wall, or from beside a piece onto it. So parts of the step are examined: where the overlap or the
-// margin becomes positive, the other may be positive too.
+// A long step may move a body through a wall, or from beside a piece onto it. So parts of the step are examined: an onset is where the
+// overlap or the margin becomes positive while the other is.
 std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   if (leaving(event) < 0 && log_.touching(event) && is_rigid(system_.contacts[at(event)]) && motion.knows_held_forces()) {
     const auto left = [&](double t) { return pressed(event, motion.at(t)).value; };
@@ -136,7 +136,7 @@ bool ContactEvents::met(int event, const Guard& gap) const {
   return depth <= enough || gap.rate == 0 || speed_to_reach(event, depth) <= part * std::abs(gap.rate);
 }
 
-// A start with overlap has no approach speed. It gets that of the impact that would reach this depth.
+// A contact that overlaps at the start has no approach speed: it gets that of the impact that would reach this depth.
 void ContactEvents::start(Step& step) {
   if (time_stepping()) return;
   std::vector<int> rigid;
@@ -152,14 +152,14 @@ void ContactEvents::start(Step& step) {
   if (!rigid.empty()) strike(rigid, step);
 }
 
-// Provides the reference force for the first step too.
+// Also provides the reference force for the first step.
 void ContactEvents::begin_step(const State& from) {
   for (int c = 0; c < contacts(); ++c)
     if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping())
       most_pressed_ = std::max(most_pressed_, std::abs(from.friction[at(c)].load));
 }
 
-// A contact lasts as long as each step has an impulse.
+// Logs the contacts of time-stepping: a contact lasts as long as each step has an impulse.
 void ContactEvents::write_down(Step& step) {
   const State& state = step.to.state;
   for (int c = 0; c < contacts(); ++c) {
@@ -193,7 +193,7 @@ void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<co
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
     if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping()) continue;
-    if (step.h > 0 && step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // its forces have let it open
+    if (step.h > 0 && step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // it has opened under its forces
     most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
   }
   for (int c = 0; c < contacts(); ++c)
@@ -223,7 +223,7 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
           .of_every_method = pair.profiles};  // otherwise a long implicit step would skip it
 }
 
-// Gaps so nearly closed that they close at this instant.
+// Whether a gap is so small that it closes at this instant.
 bool ContactEvents::touches(int contact, const State& state) const {
   const ContactPair& pair = system_.contacts[at(contact)];
   if (log_.touching(contact) || continues_another(contact)) return false;
@@ -253,7 +253,7 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
   return {.change = EventOutcome::Change::jump};
 }
 
-// Its forces are determined again; the contact ends once they have let it open.
+// Its forces are determined again; the contact ends once it has opened under them.
 EventOutcome ContactEvents::part(int contact, Step& step) {
   State& state = step.to.state;
   if (state.impact_rate[at(contact)] > 0) {
@@ -266,8 +266,8 @@ EventOutcome ContactEvents::part(int contact, Step& step) {
 
 namespace {
 
-// The pair beyond the end. Where that pair would be left immediately, as where an arc meets the end of a line, the pair beyond another end
-// that is entered there.
+// The pair beyond the end. If the contact would leave that pair immediately, as where an arc meets the end of a line, the pair beyond
+// another end that it enters there.
 int next(const System& system, const ImpactLog& log, int contact, const State& state) {
   const ContactPair& pair = system.contacts[at(contact)];
   const int side = margin_of(system, contact, state).side, to = side < 0 ? -1 : pair.beyond[at(side)];
@@ -318,7 +318,7 @@ void ContactEvents::end(int contact, Step& step) {
   straighten_bristles(system_, contact, state);
 }
 
-// The time at which the depth was zero, to first order, if that was in the step or would be as soon after its end.
+// The time at which the depth is zero, to first order, if that is within a step length of the step's end.
 double ContactEvents::moment(const Step& step, const Guard& gap) const {
   const double t = step.to.state.t;
   return !(onset_cut_ > 0) && std::abs(gap.value) < std::abs(gap.rate) * step.h ? t - gap.value / gap.rate : t;
@@ -329,9 +329,9 @@ double ContactEvents::speed_to_reach(int contact, double depth) const {
   return pintle::speed_to_reach(pair.normal, lightness(system_, pair), depth);
 }
 
-// The first explicit step of an impact [s]. Its force starts as (1 + χ)(vt)ⁿ, which has no expansion in whole powers, so no embedded error
-// estimate sees the whole error. In the step h the force changes the speed v by (1 + χ) ½ v (hv/δ)ⁿ⁺¹, where δ is the depth that v can
-// reach; a pair makes an error of about a thousandth of this, which is set equal to the tolerance.
+// The first explicit step of an impact [s]. Its force starts as k (1 + χ)(vt)ⁿ, which has no expansion in integer powers, so no embedded
+// error estimate shows the whole error. In the step h the force changes the speed v by (1 + χ) ½ v (hv/δ)ⁿ⁺¹, where δ is the depth that v
+// can reach; a pair makes an error of about a thousandth of this, which is set equal to the tolerance.
 double ContactEvents::onset_step(int contact, double v, double t) const {
   constexpr double missed = 1e-3, clock = 1e-14;
   if (!(v > 0)) return infinite;

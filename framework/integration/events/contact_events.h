@@ -51,10 +51,10 @@ class ContactEvents final : public EventGroup {
 
   const System& system_;
   double tolerance_, onset_cut_;
-  double fixed_step_;         ///< of time-stepping, whose impacts are the scheme's: they are written down, but no events; else 0 [s]
+  double fixed_step_;         ///< of time-stepping, whose impacts belong to the scheme: they are logged, but are no events; else 0 [s]
   std::vector<int> leaving_;  ///< pairs with pieces of finite extent
   ImpactLog log_;
-  double most_pressed_ = 0;        ///< of the rigid contacts so far [N]
+  double most_pressed_ = 0;        ///< largest normal force of rigid contacts so far [N]
   std::unique_ptr<Equations> eq_;  ///< created at the first impact of rigid bodies
 };
 

@@ -34,8 +34,7 @@ double stored(const System& system, const Switch& s, const Equations& eq) {
   return sum;
 }
 
-// What a contact that is engaged where its surfaces overlap holds in store: its event begins it at this instant, as an impact that has
-// come so deep.
+// The energy [J] stored in a contact that is engaged while its surfaces overlap: it begins now, as an impact that has reached this depth.
 double stored_at_onset(const System& system, const Switch& s, const State& state) {
   double sum = 0;
   for (int c = s.index; s.of == Switch::contact && c < s.index + system.contacts[at(s.index)].pairs; ++c) {
@@ -98,7 +97,7 @@ std::string latch(const System& system, int k, State& state, Equations& eq) {
   return "";
 }
 
-// Teeth mesh in their present gap. Their slip is the difference of the depths of their two flanks in the gap of the start.
+// Teeth mesh in their present gap. Their slip follows from the difference of the depths of their two flanks in the gap at the start.
 void mesh(const System& system, const SwitchOver& one, State& state) {
   const int first = system.switches[at(one.at)].index;
   const std::optional<Flank>& flank = system.contacts[at(first)].flank;

@@ -17,14 +17,14 @@ struct SwitchOver {
 /// Result of a change of the mechanism, or why it is impossible.
 struct Engagement {
   std::string trouble = {};   ///< empty: done. Otherwise the state is invalid
-  bool changed = false;       ///< something changed: it was not already released or engaged
-  double lost = 0, work = 0;  ///< energy lost in engaging joints, and work of drivers as they were engaged [J]
+  bool changed = false;       ///< something changed: not all elements were already released or engaged
+  double lost = 0, work = 0;  ///< energy lost by engaging joints, and work of drivers during this [J]
 };
 
 /// Releases and engages elements at one instant. Positions are unchanged; speeds are projected, in the metric of M, onto what the engaged
 /// joints allow: an impact without restitution. The energy lost is recorded, including that stored in released forces and contacts. A
-/// joint's angle, and what a driver imposes, continue from their present values; a joint whose points must coincide is engaged only where
-/// they do.
+/// joint's angle, and what a driver imposes, continue from their present values; a joint whose points must coincide is engaged only if they
+/// do.
 Engagement switch_over(const System&, std::span<const SwitchOver>, State&, Equations&);
 
 }  // namespace pintle

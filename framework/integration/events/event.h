@@ -30,13 +30,13 @@ struct Guard {
 
 enum class Direction { none, rising, falling };
 
-/// How a guard is watched at present.
+/// How a guard is watched in its present mode.
 struct WatchedGuard {
   Direction direction = Direction::none;  ///< none: it is not watched
   double zero = 0;                        ///< a guard nearer to zero than this counts as zero
   double overshoot = 0;  ///< 0: steps end where the guard is zero. Positive: they end where it is at most this far past zero
   bool at_once = false;  ///< may occur at the same instant as the previous event
-  bool level = false;    ///< also occurs wherever a step begins with the guard past zero
+  bool level = false;    ///< also occurs at the start of a step that begins with the guard past zero
   bool kink = false;     ///< a force has a kink there: a step that would cross it ends there instead
 };
 
@@ -48,13 +48,13 @@ struct EventOutcome {
   bool of_every_method = false;                                 ///< the bound holds for every method
   std::string end = {};                                         ///< reason why the integration ends here; empty: it continues
   std::string failure = {};                                     ///< reason why it cannot continue
-  std::string did = {};                                         ///< in words, for the list of happenings; empty: not listed
-  bool save = false, row = false;                               ///< the state is to be saved, a row of results written
+  std::string did = {};                                         ///< description for the list of happenings; empty: not listed
+  bool save = false, row = false;                               ///< the state must be saved, a row of results written
 };
 
 /// Record of an event of the scene.
 struct Happening {
-  double t = 0;
+  double t = 0;  ///< [s]
   std::string event, did;
   template <class A>
   void archive(A& x) {
@@ -62,7 +62,7 @@ struct Happening {
   }
 };
 
-/// Fault of a saved state whose modes do not fit the system.
+/// Reported if the modes of a saved state do not fit the system.
 inline constexpr const char* foreign_modes = "it belongs to another system, or has invalid numbers";
 
 /// Events of one kind: guards with directions, and what happens where they pass zero. A group owns the modes between its
@@ -77,7 +77,7 @@ class EventGroup {
   virtual int size() const = 0;
   /// For messages: contact "pin".
   virtual std::string name(int event) const = 0;
-  /// What to do where its events recur without time passing, or with very little time passing; empty: none of them may.
+  /// Advice if its events recur with little or no time passing; empty: only recurrence without time passing is an error.
   virtual std::string remedy() const { return {}; }
 
   /// Called as a step begins: modes change only in `act`.
@@ -88,14 +88,14 @@ class EventGroup {
   /// For a guard that is negative at both ends of a step: a time inside at which it is positive, where the guard's rates at the ends do not
   /// reveal it.
   virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&) const { return std::nullopt; }
-  /// Before the passages of a step that was tried are sought: where its guard stands at zero, which side that counts for may be decided here.
-  /// The guards of its two ends follow.
+  /// Called before events in an attempted step are searched for. If the guard stays at zero, decides on which side of zero it counts, and
+  /// shifts the guards of the step's two ends accordingly.
   virtual void decide_at_zero(int /*event*/, const Step&, const DenseOutput&, Guard& /*from*/, Guard& /*to*/) {}
-  /// The event has occurred already where its guard is zero; it need not be passed.
+  /// Whether the event occurs as soon as its guard is zero, without passing it.
   virtual bool comes_at_zero(int, const State&) const { return false; }
-  /// Since its last occurrence, its guard has been within rounding of zero.
+  /// Whether its guard has stayed within rounding of zero since its last occurrence.
   virtual bool hardly_left(int, const Step&, const DenseOutput&) const { return false; }
-  /// The guard at the end of the step is so near zero that ending the step elsewhere would not improve it.
+  /// Whether the guard at the end of the step is so near zero that ending the step elsewhere would not improve it.
   virtual bool met(int event, const Guard&) const = 0;
 
   /// Sets the modes at a start; only the step's end is valid.

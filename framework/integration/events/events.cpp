@@ -34,7 +34,7 @@ void Events::start(Step& step) {
   for (auto& g : groups_) g->start(step);
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard w = ask(k);
-    const bool left_undecided = w.at_once && group(k).order() > 0;  // a start found no forces: it acts at once and reports this
+    const bool left_undecided = w.at_once && group(k).order() > 0;  // a start found no forces: the event acts at once and reports this
     spent_[k] = !left_undecided && w.direction != Direction::none && turned(guard(k, step.to.state), w).value > 0;
   }
 }
@@ -52,8 +52,8 @@ void Events::begin_step(const State& from) {
 }
 
 double Events::kink_ahead(double wish) const {
-  constexpr double little = 1e-2;  // relative to the desired step: when it is this near, the step may pass it
-  constexpr double past = 1.02;    // margin, since a contact opens faster and faster
+  constexpr double little = 1e-2;  // relative to the desired step: if the kink is nearer than this, the step may pass it
+  constexpr double past = 1.02;    // margin, because a contact opens with increasing speed
   double ahead = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard& w = watched_[k];
@@ -71,7 +71,7 @@ void Events::look_at_end(const Step& step, const Equations* evaluated) {
     to_[k] = evaluated ? group(k).guard(places_[k].event, step.to.state, *evaluated) : guard(k, step.to.state);
 }
 
-// Of the events that a step may pass, the one passed farthest, where that counts; otherwise the last.
+// Of the events that a step may pass: the one passed farthest among those with finite overshoot; otherwise the last.
 std::optional<EventInStep> Events::passed_by_end(const Step& step) const {
   std::optional<EventInStep> out;
   double farthest = 0;
@@ -104,14 +104,14 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
     if (!between && (spent || !(from.value > w.zero))) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
-  } else if (spent || from.value < 0) {  // it may have been positive before, and negative again
+  } else if (spent || from.value < 0) {  // it may have been positive earlier, and negative again
     end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
   }
   if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and decreasing: start the search after it has decreased
     const double away = std::min(from.value, spent ? -w.zero : 0.0);
     for (double part = 0.5; part > 1e-9 && begin == t0; part /= 2)
       if (const double t = t0 + part * (end - t0); along(t).value < away) begin = t;
-    if (begin == t0 && (spent || from.value >= 0)) {           // it has not
+    if (begin == t0 && (spent || from.value >= 0)) {           // it has not decreased
       if (spent && w.at_once && from.rate < 0 && to.rate > 0)  // no decrease was visible, but it returns: the event is at its minimum
         return crossing([&](double t) { return Guard{along(t).rate}; }, t0, t1, 1e-9 * step.h);
       if (spent || !w.at_once || here_ > 4) return std::nullopt;

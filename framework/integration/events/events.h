@@ -50,8 +50,8 @@ class Events {
   /// keep_end: the next step begins at the end as events have left it; forget_end: its guards are evaluated again.
   void keep_end() { known_ = true; }
   void forget_end() { known_ = false; }
-  /// Counts events at one instant, and events with almost no time passing, or nothing moving, between them. @param wish  the step's length
-  /// without an event [s]   @returns false where they recur endlessly
+  /// Counts events at one instant, and events between which almost no time passes or nothing moves. @param wish  the step's length without
+  /// an event [s]   @returns false if they recur endlessly
   bool count(const Step&, const std::optional<EventInStep>&, const DenseOutput&, double wish);
   /// Which events recur, and the remedy.
   std::string again_and_again() const;

@@ -14,7 +14,8 @@ namespace pintle {
 
 namespace {
 
-// The change of slip by 1 N on column i of what sticks, relative to that of free bodies. Near 0, as at a dead centre, no force can hold it.
+// The change of slip due to 1 N in column i of eq.sticking, relative to that of free bodies. Near 0, as at a dead centre, no force can hold
+// it.
 double leverage(const System& system, Equations& eq, Eigen::Index i) {
   Eigen::VectorXd a = eq.sticking.J.col(i), lambda;
   double free = 0;
@@ -42,7 +43,7 @@ FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : sys
   fastest_.resize(dry_.size());
 }
 
-// A slip below this counts as zero, compared with the slip so far [m/s].
+// A slip below this counts as zero; it depends on the fastest slip so far [m/s].
 double FrictionEvents::still(int event) const {
   constexpr double part = 1e-10, least = 1e-13;  // relative to its fastest slip; to the mechanism's length per second
   return std::max(part * fastest_[static_cast<std::size_t>(event / 2)], least * system_.length);
@@ -55,7 +56,7 @@ std::string FrictionEvents::name(int event) const {
   return (of_sliding(event) ? "slip at " : "sticking at ") + where + "\"";
 }
 
-// The state says whether something slides or sticks, so the guards of the other mode are kept away from zero.
+// The state defines whether each friction slides or sticks; the guard of the other mode is kept away from zero.
 WatchedGuard FrictionEvents::watch(int event) const {
   const double known = of_rigid(place(event)) ? 1e-9 : 1e-6;  // worst relative accuracy of the holding force
   if (of_sliding(event)) return {.direction = Direction::falling, .zero = still(event), .at_once = true};
@@ -105,7 +106,7 @@ double most_pressed(const System& system, const State& state) {
 
 }  // namespace
 
-// Sliding ends a little past 0, so that it can begin at 0. The holding force is relative to the most that can be held.
+// Sliding ends slightly past zero slip, so that it can begin at zero. The holding force is relative to its limit μ_s N.
 Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& now) const {
   const DryFriction& dry = state.friction[place(event)];
   const bool undecided = dry.direction == DryFriction::undecided;
@@ -189,7 +190,7 @@ void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
 
 namespace {
 
-// A closed rigid contact opens although all of them should hold: as with discs in a row from wall to wall, one of which is pushed out of
+// Whether a closed rigid contact opens although all of them should hold: as when one of a row of discs between two walls is pushed out of
 // the row.
 bool opens(const System& system, const Equations& eq) {
   constexpr double nearly = 1e-3;
@@ -200,7 +201,7 @@ bool opens(const System& system, const Equations& eq) {
   return false;
 }
 
-// A closed rigid contact opens or pulls, or sticks beyond what it can hold.
+// Whether a closed rigid contact opens, pulls, or holds more than its friction can.
 bool overcharged(const System& system, const State& state, const Equations& eq) {
   if (opens(system, eq)) return true;
   constexpr double little = 1e-9;
@@ -256,7 +257,7 @@ bool FrictionEvents::decide_rigid_ones(State& state, bool at_limit) {
   return false;
 }
 
-// Of the forces beyond their limit, the one with the largest ratio is made to slide, against its holding force, until the rest can hold.
+// While forces exceed their limits, makes the friction with the largest ratio slide, in the direction opposite to its holding force.
 bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
   constexpr double little = 1e-9, nearly = 1e-6;
   const Resting resting = classify(state, slips);
@@ -268,7 +269,7 @@ bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
     if (!evaluate(system_, state, *eq_, dy)) return !resting.rigid;
     if (resting.rigid && !decide_rigid_ones(state, slips && tries == 0)) return false;
     std::optional<std::size_t> worst;
-    double most = slips ? 1 - nearly : 1 + little;  // forces that share the load give way together
+    double most = slips ? 1 - nearly : 1 + little;  // forces that share the load start to slide together
     for (const std::size_t k : resting.at) {
       if (!sticks(system_, state, k) || of_rigid(k)) continue;
       const FrictionNow held = friction_now(system_, *eq_, k);

@@ -40,7 +40,7 @@ class FrictionEvents final : public EventGroup {
   FrictionNow now(std::size_t at, const State&) const;
   Guard guard(int event, const State&, const FrictionNow&) const;
   bool of_rigid(std::size_t at) const;
-  /// What sticks, and the direction in which each slid before.
+  /// The frictions that may stick, and the direction in which each slid before.
   struct Resting {
     std::vector<std::size_t> at;
     std::vector<double> came;

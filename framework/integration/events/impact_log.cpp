@@ -167,8 +167,8 @@ ContactEffect pressing(const System& system, int contact, const State& state) {
 
 namespace {
 
-// For a straight piece with the other piece inside the material beside it: how much nearer that is to this piece than to its ends, and so
-// to the pieces there. Later one can no longer tell through which of them it came.
+// If the other piece is inside the material behind a straight piece: how much nearer it is to this piece than to its ends, and thus to the
+// pieces there. Deeper inside, the piece through which it came can no longer be identified.
 Guard belonging(const ContactPair& pair, const Facing& now) {
   Guard out{std::numeric_limits<double>::infinity(), 0};
   const std::array<PlaceOn, 2> place = places(pair.gap, now.gap, now.a, now.b);

@@ -13,15 +13,15 @@ namespace pintle {
 Guard gap_of(const System&, int contact, const State&);
 /// The gap of a contact and its normal force, from the same data; nothing else is computed.
 ContactEffect pressing(const System&, int contact, const State&);
-/// Positive where an open contact touches: the overlap; for profiles also the distance inside its pieces.
+/// Positive if an open contact touches: the overlap; for profiles, the least of it and of the margins inside its pieces.
 Guard onset_of(const System&, int contact, const State&);
 /// For profiles, how far inside its pieces a contact is, and at which side it is nearest to leaving them.
 Margin margin_of(const System&, int contact, const State&);
 
-/// A contact, or the pair from whose pieces it comes onto its own, was pressed at the end of the step before.
+/// Whether the contact, or a pair beyond the ends of its pieces, was under load at the end of the step before.
 bool was_pressed(const System&, int contact, const State& from);
-/// The time by which time-stepping divides the impulse of a contact in a step h to report a force [s]. It is a whole step for an impact, and
-/// for the rest of a step after an event, where forces are only rounding; for a contact that continues it is h.
+/// The time by which time-stepping divides the impulse of a contact in a step h to report a force [s]: h for a continuing contact; the
+/// fixed step for an impact, and for a remainder of a step too short to resolve forces.
 double time_of_force(const System&, int contact, const State& from, double h, double fixed_step);
 
 /// The number of parts of a step to examine for touching: in each the motion is at most a quarter of the smaller piece, at the speeds of
@@ -34,12 +34,12 @@ class ImpactLog {
   explicit ImpactLog(const System&);
 
   bool touching(int contact) const { return open_[static_cast<std::size_t>(contact)] >= 0; }
-  /// @param before  state from which its losses are counted   @param gap  where it begins   @param begin  time, to better than the digits
-  /// of the clock
+  /// @param before  state from which its losses are counted   @param gap  where it begins   @param begin  time, which may be more accurate
+  /// than the state's
   /// @param latched  its approach speed
   void begin(int contact, const State& before, const Guard& gap, double begin, double latched);
   void end(int contact, double end, double separation);
-  /// An impact of a rigid contact during its contact; it may end the contact. Call after the energy is recorded.
+  /// An impact of a rigid contact while it is closed; it may end the contact. Call after the energy is recorded.
   void strike(const Blow&, const State&);
   /// The contact continues at another pair of the same two profiles.
   void pass(int contact, int to);

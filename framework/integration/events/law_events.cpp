@@ -74,7 +74,7 @@ void LawEvents::see(const State& state) {
   for (std::size_t k = 0; k < now.size(); ++k) {
     const double left = -(now[k] + lag_[k]), largest = exact_[k] && size_[k] > 0 ? size_[k] : 1;
     if (std::isfinite(left)) size_[k] = std::max(size_[k], std::abs(left) * largest);
-    if (left > lag_[k]) lag_[k] = 0;  // well inside its side
+    if (left > lag_[k]) lag_[k] = 0;  // away from the end of its side
   }
   for (std::size_t l = 0; l < laws_.size(); ++l)
     if (const double size = std::abs(value(laws_[l], state)); std::isfinite(size)) most_[l] = std::max(most_[l], size);
@@ -112,7 +112,7 @@ Guard LawEvents::guard(int event, const State& state) const {
 
 bool LawEvents::met(int event, const Guard& guard) const { return std::abs(guard.value) <= (event == 0 ? switch_rounding : mark_near); }
 
-// Examines parts of the step, and where a switch has a maximum near its end between three points.
+// Examines parts of the step, and maxima of switches near the ends of their sides between three points.
 std::optional<double> LawEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
   std::array<std::vector<double>, 3> left;
@@ -143,7 +143,7 @@ void LawEvents::start(Step& step) {
 
 void LawEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }
 
-// All switches at their ends switch at once. Where no law jumps, the motion continues unchanged.
+// All switches at the ends of their sides switch together. If no law jumps, the motion continues unchanged.
 EventOutcome LawEvents::act(int event, Step& step, const Guard&) {
   constexpr double same = 1e-9;  // relative to the largest value of the law
   const State& state = step.to.state;

@@ -12,7 +12,7 @@ namespace pintle {
 class LawEvents final : public EventGroup {
  public:
   explicit LawEvents(const System&);
-  /// Does any law have sides?
+  /// Whether any law has sides.
   static bool has_any(const System&);
 
   /// For Equations: the sides on which the laws are held.

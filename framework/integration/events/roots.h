@@ -44,8 +44,8 @@ std::optional<double> positive_between(F guard, double t0, double t1, double rat
   return std::nullopt;
 }
 
-/// By the cubic through the values and rates at both ends of h: may the guard, negative at both, be positive in between? It must stay below
-/// zero by a tenth of its change.
+/// Whether a guard that is negative at both ends of h may be positive in between: its cubic does not stay below zero by a tenth of its
+/// change.
 inline bool may_be_positive_between(const Guard& from, const Guard& to, double h) {
   constexpr double part = 0.1;
   const double a = h * from.rate, b = h * to.rate, d = to.value - from.value;

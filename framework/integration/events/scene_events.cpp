@@ -16,7 +16,7 @@ namespace {
 
 constexpr double guard_rounding = 1e-15, guard_near = 1e-12;  // of its largest value: when it is located, when it is zero
 constexpr double guard_still = 1e-10;                         // … and within which it has not moved
-constexpr double guard_ahead = 1e-5;                          // so far a motion is led on to see whether it leaves zero [s]
+constexpr double guard_ahead = 1e-5;                          // extrapolation of the motion, to see whether a guard leaves zero [s]
 
 }  // namespace
 
@@ -29,7 +29,7 @@ SceneEvents::SceneEvents(const System& system, std::vector<SceneEventRule> rules
   }
 }
 
-// The smallest of them, each relative to its largest value.
+// The smallest of its comparisons, each relative to its largest value.
 Guard SceneEvents::all_of(int event, const State& state) const {
   Guard least{std::numeric_limits<double>::infinity()};
   const auto& when = rules_[at(event)].when;
@@ -54,7 +54,7 @@ double SceneEvents::look(int event, const State& state, std::vector<double>& out
   return least;
 }
 
-// As written, except that numbers closer than this count as equal.
+// Whether the condition holds; numbers closer than guard_near count as equal.
 bool SceneEvents::holds(int event, const State& state) const {
   std::vector<double> now;
   look(event, state, now);
@@ -72,12 +72,12 @@ State SceneEvents::extrapolated(const Instant& from, double dt) const {
   return next;
 }
 
-// Decided by the motion just after the instant.
+// Whether the guard rises, according to the motion just after the instant.
 bool SceneEvents::rises(int event, const Instant& from) const {
   return all_of(event, extrapolated(from, guard_ahead)).value > std::max(guard_near, all_of(event, from.state).value);
 }
 
-// At zero a comparison has the value that its sign gives: >= and <= are true, > and < false. Most conditions need no state for this.
+// At zero a comparison is true for >= and <=, false for > and <. Most conditions need no state for this.
 bool SceneEvents::true_at_zero(int event, const State& state) const {
   const auto& when = rules_[at(event)].when;
   const auto equal = std::ranges::count(when, true, &SceneComparison::at_zero);
@@ -86,7 +86,7 @@ bool SceneEvents::true_at_zero(int event, const State& state) const {
 
 bool SceneEvents::on_zero(int event, const State& state) const { return std::abs(all_of(event, state).value) <= guard_near; }
 
-// The guard is zero at this end of the step, in the part of the step next to it and where the motion leads: it is not just passing zero.
+// Whether the guard stays at zero around this end of the step, inside the step and beyond it, and does not just pass zero.
 bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion, bool at_end) const {
   constexpr double part = 0.125, ahead = 1e-3;
   const double beside = at_end ? step.to.state.t - part * step.h : step.from.state.t + part * step.h;
@@ -94,7 +94,7 @@ bool SceneEvents::stands(int event, const Step& step, const DenseOutput& motion,
          on_zero(event, extrapolated(at_end ? step.to : step.from, std::max(guard_ahead, ahead * step.h)));
 }
 
-// A condition that stays at zero is true or false there as its comparison says. The zero to be passed is moved to the side from which it came.
+// A condition that stays at zero is true or false there as its comparison says. Its guard is shifted to the side from which it came.
 void SceneEvents::decide_at_zero(int event, const Step& step, const DenseOutput& motion, Guard& from, Guard& to) {
   if (waits_[at(event)] == Waits::no_more || !(step.h > 0)) return;
   double& shift = shift_[at(event)];
@@ -108,7 +108,7 @@ void SceneEvents::decide_at_zero(int event, const Step& step, const DenseOutput&
   shift = aside;
 }
 
-// The size of a comparison is the largest so far of what it compares, or what that would be if everything moved as fast as the fastest:
+// The size of a comparison is the largest magnitude so far of the compared quantities, also if everything moved as fast as the fastest:
 // otherwise a quantity at rest would be compared with rounding.
 void SceneEvents::see(const State& state) {
   const Eigen::Index n = system_.n();
@@ -150,7 +150,7 @@ Guard SceneEvents::guard(int event, const State& state) const {
 }
 
 // Examines parts of the step, and in each the zeros of every comparison, of its kinks, and of minima between three points: between two of
-// these no comparison changes its truth.
+// these no comparison changes.
 std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   constexpr int parts = 8;
   constexpr double fine = 1e-12;
@@ -214,7 +214,7 @@ void SceneEvents::start(Step& step) {
   State begun = state;
   begun.y.head(moving) = next.y.head(moving);
   see(state);
-  see(begun);  // what begins to move has a size too
+  see(begun);  // also of quantities that begin to move
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value, rate = (all_of(event, next).value - now) / guard_ahead;
     const bool on_level = std::abs(now) <= std::max(guard_near, last_digits * std::abs(rate * state.t));
@@ -232,7 +232,7 @@ void SceneEvents::start(Step& step) {
   }
 }
 
-// A comparison at zero that does not rise there, such as the speed of something held, must rise by more than rounding.
+// A comparison at zero that does not rise there, such as the speed of a body that is held, must rise by more than rounding.
 void SceneEvents::begin_step(const State& from) {
   for (int event = 0; event < size(); ++event) {
     if (waits_[at(event)] != Waits::for_true || shift_[at(event)] != 0) continue;
@@ -251,7 +251,7 @@ void SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<cons
   }
 }
 
-// Other conditions that fall to the level at which this event acts are no longer true there, and may become true as soon as the motion
+// Other conditions that fall to the level at which this event acts count as no longer true: they may become true as soon as the motion
 // reverses.
 void SceneEvents::rearm_beside(int event, const Step& step) {
   for (int other = 0; other < size(); ++other) {
@@ -268,7 +268,7 @@ void SceneEvents::rearm_beside(int event, const Step& step) {
 }
 
 // A jump of the state may make two compared numbers exactly equal. A condition that it makes false may become true again at this instant,
-// even if nothing is to be done when it is false.
+// even if it has no actions for becoming false.
 void SceneEvents::decide_on_level(const std::vector<double>& before, const State& state) {
   for (int event = 0; event < size(); ++event) {
     const double now = all_of(event, state).value;
@@ -294,7 +294,7 @@ std::string list_of(const System& system, const std::vector<SwitchOver>& changes
   return out;
 }
 
-constexpr const char* failed_to_act = "could not do it, which ended the run";  // it came all the same
+constexpr const char* failed_to_act = "could not do it, which ended the run";  // the event has occurred nevertheless
 
 void add_words(std::string& did, const std::string& words) {
   if (!words.empty()) did += (did.empty() ? "" : "; ") + words;
@@ -302,7 +302,7 @@ void add_words(std::string& did, const std::string& words) {
 
 }  // namespace
 
-// @returns false where they cannot be switched this way
+// @returns false if they cannot be switched this way
 bool SceneEvents::switches_all(const std::vector<EventAction>& actions, State& state, EventOutcome& out) {
   std::vector<SwitchOver> changes;
   for (const EventAction& action : actions)

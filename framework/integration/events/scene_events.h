@@ -19,12 +19,12 @@ struct StopRun {
 struct SetState {
   std::string name;
   std::function<void(const System&, const State& seen, State&)> set;
-  std::function<std::string(const System&, const State&)> seen = {};  ///< what it is told from there, in words
+  std::function<std::string(const System&, const State&)> seen = {};  ///< the values that it receives, in words
 };
 enum class Record { state, row };
 using EventAction = std::variant<SwitchOver, SetState, StopRun, Record>;
 
-/// Which results of a comparison are wanted besides its difference, all from one evaluation of the state.
+/// Results of a comparison requested besides its difference, all from one evaluation of the state.
 struct Wanted {
   bool rate = false;                     ///< of the difference, where known
   double* size = nullptr;                ///< ← size of the compared quantities, the scale of the difference
@@ -75,7 +75,7 @@ class SceneEvents final : public EventGroup {
   const char* fault() const override;
 
  private:
-  /// What an event waits for: to become true or, after acting, false; or nothing any more.
+  /// What an event waits for: to become true or, after acting, false; no_more: it acts only once, and has acted.
   enum class Waits : unsigned char { for_true, for_false, no_more };
   bool believed(int event) const { return waits_[static_cast<std::size_t>(event)] == Waits::for_false; }
   Guard all_of(int event, const State&) const;
@@ -100,7 +100,7 @@ class SceneEvents final : public EventGroup {
   bool any_of_speeds_ = false;
   State faster_;                   ///< workspace: the last state, with every speed as fast as the fastest
   std::vector<double> away_;       ///< largest distance of each guard from zero since its event last occurred
-  std::vector<double> shift_;      ///< of each guard since it last passed or was at zero, so that its event occurs only once there
+  std::vector<double> shift_;      ///< of each guard since it last reached zero, so that its event occurs only once there
   std::unique_ptr<Equations> eq_;  ///< created at the first switching
 };
 

@@ -12,12 +12,12 @@ namespace pintle {
 
 /// The motion inside a step of a pair whose steps are too long for polynomials through their ends. The pair steps to the middle, and the
 /// motion is evaluated at the sixths; y is then the polynomial of degree 9 through its values at 0, ½, 1 and its rates at 0, ⅙, ⅓, ½, ⅔,
-/// ⅚, 1. Its error falls as that of a step of order 8, h⁹; it costs one step and twelve evaluations, however often it is asked for.
+/// ⅚, 1. Its error falls as that of a step of order 8, h⁹; it costs one step and twelve evaluations, regardless of the number of samples.
 class InnerMotion {
  public:
   static constexpr int evaluations_beyond_step = 12;
 
-  /// Nothing is left to do for the step that it was prepared for last. @returns false where the motion cannot be evaluated
+  /// Does nothing if it is already prepared for this step. @returns false if the motion cannot be evaluated
   bool prepare(const System&, const Step&, Stages&, Equations&);
   /// Not projected onto the constraints. @pre prepared for this step
   void interpolate(const Step&, double t, State& out) const;

@@ -52,7 +52,7 @@ void Partition::factor() {
   }
 }
 
-// subtracts the scaled solution of block · x = violation from q or s, as `y` points to
+// subtracts the scaled solution of block · x = violation from y, which points to q or s
 double Partition::subtract(const System& system, const Eigen::VectorXd& violation, double* y) {
   if (block_.rows() == block_.cols())
     step_ = lu_.solve(violation.cwiseProduct(system.row_scale));

@@ -21,9 +21,9 @@ class Partition {
   /// Projects the dependent part of y onto C = 0, Ċ = 0, without changing the independent part.
   /// @returns false if it does not converge
   bool correct(const System&, double t, Eigen::VectorXd& y, Equations&);
-  /// It was chosen for the rows present in `eq`.
+  /// Whether it was chosen for the rows present in `eq`.
   bool suits(const Equations& eq) const { return !dependent_.empty() && released_ == eq.released; }
-  /// The chosen set is so ill conditioned that it should be chosen again.
+  /// Whether the chosen set is so ill conditioned that it should be chosen again.
   bool worn() const { return quality_ < 0.3 * chosen_quality_; }
 
   void take_set(const Partition& other) {
@@ -31,7 +31,7 @@ class Partition {
     if (released_ != other.released_) released_ = other.released_;
   }
 
-  /// Its set is a valid set of coordinates of the system.
+  /// Whether its set is a valid set of coordinates of the system.
   bool fits(const System&) const;
 
   int choices() const { return choices_; }

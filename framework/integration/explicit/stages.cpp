@@ -159,7 +159,7 @@ const std::array<double, 7>* quartic_of(const Tableau& tableau) {
 
 }  // namespace
 
-// With the cubic alone the error would be h⁴ inside a step but h⁶ at its end.
+// The error of the cubic would be h⁴ inside a step, but it is h⁶ at its end.
 void Stages::refine_cubics(const System& system, const Step& step, State& out) const {
   const std::array<double, 7>* d = quartic_of(tableau_);
   if (d == nullptr) return;

@@ -25,7 +25,7 @@ class Stages {
   bool reach(const System&, const Instant& from, double h, Instant& to, Equations&);
   /// Chooses a new independent set if the present one has become ill conditioned. After an accepted step.
   void refresh(const System&, Equations&);
-  /// Improves the internal states and integrals that `interpolate` has put into `out`, by means of the last attempt's stages.
+  /// Improves the internal states and integrals that `interpolate` has put into `out`, with the last attempt's stages.
   /// @pre the step is that of the last attempt
   void refine_cubics(const System&, const Step&, State& out) const;
 
@@ -35,8 +35,8 @@ class Stages {
   const Tableau& tableau() const { return tableau_; }
   Constraints constraints() const { return constraints_; }
   int partitions() const { return partition_.choices(); }
-  /// A stage since the last `reach` began was at or near a configuration with dependent rows, or there may be one within the long steps of
-  /// a pair of high order: a pivot falls with the square of the distance.
+  /// Whether a stage since the last `reach` began was at or near a configuration with dependent rows, or may be for the long steps of a
+  /// pair of high order: a pivot falls with the square of the distance.
   bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
   /// Smallest pivot of the last attempt's stages; 0: a stage was in a singular configuration.
   double closest() const { return least_; }
@@ -48,7 +48,7 @@ class Stages {
   void archive(A& x) {
     x(PINTLE_MEMBERS(partition_));
   }
-  /// What was loaded fits the system.
+  /// Whether the loaded data fit the system.
   bool fits(const System& system) const { return partition_.fits(system); }
 
  private:

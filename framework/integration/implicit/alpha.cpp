@@ -132,8 +132,8 @@ Alpha::Weights Alpha::predict(double h, const Instant& from, Instant& to) {
 
 Alpha::Weights Alpha::start_weights(double h) const { return {h * h * (weights_.beta + weights_.shift / 2), h / 2}; }
 
-// v̇ at a start as the step can follow it. With an unbalanced spring that is stiff for the step, v̇₀ would act during a whole step and
-// leave it with hω times the speed that it could ever reach. With F v = (M + w.s D + w.q K)⁻¹M v, restricted to the constraints, v̇₀ − (1 −
+// v̇ at a start, filtered for the step. If a spring that is stiff for the step is unbalanced, v̇₀ would act during the whole step and give
+// hω times the speed that the spring could ever cause. With F v = (M + w.s D + w.q K)⁻¹M v, restricted to the constraints, v̇₀ − (1 −
 // F)²v̇₀ equals v̇₀ to h² where nothing is stiff. Likewise for ẋ₀. With ρ = 1 the start uses the trapezoidal rule, which conserves energy.
 bool Alpha::soften_start(const System& system, double h, const Instant& from, Equations& eq) {
   const Index n = system.n();
@@ -252,7 +252,7 @@ bool Alpha::iterate(const System& system, const Weights& w, Instant& to, Equatio
     if (!std::isfinite(size)) return blame(system, eq, "Newton's iteration exceeds the range of a double");
     if (i > 0 && size > 1) {
       rate_ = size / before;
-      if (i > 1 && rate_ > 0.5 && size * well_below < 0.1) {  // as near as rounding allows
+      if (i > 1 && rate_ > 0.5 && size * well_below < 0.1) {  // as near to the solution as rounding allows
         enough = true, rate_ = slow;
         continue;
       }
@@ -295,7 +295,7 @@ bool Alpha::attempt(const System& system, double h, Step& step, Equations& eq) {
   return to.state.y.allFinite() && to.dy.allFinite() && step.error.allFinite();
 }
 
-// The step does not determine how forces of dependent rows are shared: carried over from step to step, this part would grow without bound.
+// The step does not determine how dependent rows share their forces: carried over from step to step, this part would grow without bound.
 void Alpha::share_out(const System& system, Instant& to, Equations& eq) {
   factor(system, to.state.y, eq);
   if (!eq.regular) return;
@@ -326,8 +326,8 @@ void Alpha::remember(const System& system, double h, const Instant& from, Instan
 }
 
 // e ← the solution x of (M + w.s D + w.q K) x + Cqᵀμ = M e, Cq x = 0. For an oscillation with hω ≫ 1, one application keeps the displacement,
-// which counts if it is above the tolerance. The scheme damps the speed of the oscillation; one application would leave so much of it that
-// the steps would resolve the oscillation permanently. Therefore speeds are filtered twice.
+// which counts if it is above the tolerance. The scheme damps the speed of the oscillation, but one application leaves so much of it that
+// the steps would always resolve the oscillation. Therefore speeds are filtered twice.
 void Alpha::filter(const System& system, Eigen::Ref<VectorXd> e, int times, Equations& eq) {
   work_ = e;
   for (int i = 0; i < times; ++i) {

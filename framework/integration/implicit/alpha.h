@@ -35,7 +35,7 @@ class Alpha {
   /// As Stages::attempt. step.error is the local error, filtered through the iteration matrix so that motion damped by the scheme does not
   /// count. @returns false if Newton does not converge; see trouble()
   bool attempt(const System&, double h, Step&, Equations&);
-  /// Newton begins like that of `other`, with its convergence data and, if it fits, its factor; its own are discarded.
+  /// Newton's method starts with the convergence data of `other` and, if it fits, its factor; its own are discarded.
   void begin_beside(Alpha& other);
   /// The state inside the step, as `interpolate`, with the curvature between the nodes kept out of stiff directions.
   void interpolate_between(const System&, const Step&, double t, State& out, Equations&);

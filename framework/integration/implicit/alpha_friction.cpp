@@ -25,8 +25,8 @@ void Alpha::border(const System& system, Equations& eq) {
   W_ = J.transpose() * border_;
 }
 
-// The forces that, together with Newton's change of speeds and multipliers, leave no slip where it sticks, and match the normal force where
-// it slides.
+// The forces that, together with Newton's change of speeds and multipliers, leave no slip of sticking friction, and match sliding friction
+// to its normal force.
 bool Alpha::correct_friction(const System& system, double weight, State& state, Memory& memory, Equations& eq) {
   if (border_.cols() == 0) return true;
   const VectorXd before = forces(state, eq), asked = -slips(system, eq) / weight - eq.sticking.J.transpose() * dv_;
@@ -44,12 +44,12 @@ double Alpha::slip_violation(const System& system, const State& state, const Equ
   return largest(W_ * holding_forces(system, eq, W_, slips(system, eq))) / (system.length * fastest_rate(system, state.y));
 }
 
-// Corrects x to these slips of what sticks.
+// Corrects x so that sticking friction has these slips.
 void Alpha::keep_slip(const System& system, const Equations& eq, const VectorXd& slips, VectorXd& x) const {
   x -= border_ * holding_forces(system, eq, W_, eq.sticking.J.transpose() * x - slips);
 }
 
-// Redistributes, as share_out does, forces that could replace one another.
+// Redistributes, as share_out does, forces that can replace one another.
 void Alpha::share_out_friction(const System& system, Instant& to, Equations& eq) {
   if (std::ranges::count(eq.sticking.of, true, &Sticking::Column::holds) < 2) return;
   const VectorXd before = forces(to.state, eq), change = friction_change(system, to.state, eq, {W_, border_lambda_}, Shares::all,

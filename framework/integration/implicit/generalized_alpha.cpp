@@ -25,8 +25,8 @@ bool GeneralizedAlpha::attempt(double h, const ErrorNorm& norm, Step& step, Equa
   return alpha_.attempt(system_, h, step, eq);
 }
 
-// In a step much longer than a period only part of the error is visible: the first step is so short that nothing moves by more than the
-// tolerance, and the next ones, each at most five times as long, use what was resolved before them.
+// A step much longer than a period shows only part of the error: the first step is so short that nothing moves by more than the tolerance,
+// and each further one is at most five times as long as the one before, which it relies on.
 double GeneralizedAlpha::first_step(const Instant& start, const ErrorNorm& norm, double left) const {
   const double fastest = norm.fastest_speed(start.state.y);
   if (!(fastest > 0)) return std::numeric_limits<double>::infinity();
@@ -43,7 +43,7 @@ bool GeneralizedAlpha::sample(const Step& step, double t, Equations& eq, State& 
   alpha.begin_beside(alpha_);
   if (t < step.to.state.t) {
     const double h = t - step.from.state.t;
-    const bool ours = step.from.memory.a.size() > 0;  // not the step after which the method was changed
+    const bool ours = step.from.memory.a.size() > 0;  // not the step before a change of the method
     if (ours && h > short_part * step.h) {
       part.from = step.from;
       part.to = step.to;

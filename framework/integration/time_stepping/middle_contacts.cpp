@@ -53,7 +53,7 @@ bool MiddleContacts::look(int c, const State& middle, double h) {
   return goes_on || (onset_of(system_, c, middle).value > 0 && !is_held_elsewhere(c));
 }
 
-// One of its pieces is a corner that has passed through another piece.
+// Whether one of its pieces is a corner that is in contact with another piece already.
 bool MiddleContacts::is_held_elsewhere(int c) const {
   const ContactPair& pair = system_.contacts[at(c)];
   for (int other = c - pair.pair; other < c - pair.pair + pair.pairs; ++other) {

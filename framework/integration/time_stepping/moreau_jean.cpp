@@ -112,7 +112,7 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
     closing[k] += given_now_[c];
   }
   auto x = newton_impulses(system_, closed, e, W, meeting, closing);
-  if (!x) {  // bodies wedged between others cannot all part with restitution e
+  if (!x) {  // bodies wedged between others cannot all separate with restitution e
     std::ranges::fill(e, 0.0);
     x = newton_impulses(system_, closed, e, W, meeting, closing);
   }
@@ -141,8 +141,8 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
 }
 
 // Bodies that overlap and stay in contact at the end of the step, as after an impact without restitution, are separated by the smallest
-// displacement in the metric of M, without pushing one into another that was closed. The energy this adds was removed in excess by the
-// impact. Wedged bodies stay as they are.
+// displacement in the metric of M, without pushing one into another that was closed. The impact has removed as much energy in excess as
+// this adds. Wedged bodies stay as they are.
 bool MoreauJean::push_apart(Instant& end, Equations& eq) {
   constexpr int most = 3;
   State apart = end.state;
@@ -188,7 +188,7 @@ bool MoreauJean::push_apart(Instant& end, Equations& eq) {
   return true;
 }
 
-// By the trapezoidal rule, except what impulses have recorded.
+// Integrals by the trapezoidal rule, except those that impulses have recorded.
 void MoreauJean::book_rates(Step& step) const {
   for (std::size_t i = 0; i < system_.integrals.size(); ++i) {
     const Account account = system_.integrals[i].account;

@@ -37,7 +37,7 @@ class Evaluations {
       if (!lacked_memory(row)) ++end.before, known_[row.number] = std::move(row);
   }
 
-  /// Nothing if the search has been stopped. Called by one thread for each number.
+  /// The result of a case; nothing if the search has been stopped. Only one thread calls it for a number.
   const Worth* at(std::size_t number, const BoxPoint& u) {
     Row& row = rows_[number];
     if (const auto known = known_.find(number); known != known_.end()) {
@@ -202,7 +202,7 @@ double apart(const BoxPoint& a, const BoxPoint& b) {
   return out;
 }
 
-/// Starting points of searches: the study's start, then the best of the other first points, where possible a tenth of the box apart.
+/// Starting points of searches: the study's start, then the best of the other first points, if possible a tenth of the box apart.
 std::vector<Tried> chosen_starts(const FitPlan& plan, const std::vector<Tried>& first) {
   constexpr double near = 0.1;
   std::vector<const Tried*> order;

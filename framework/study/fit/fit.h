@@ -65,8 +65,8 @@ struct FitSettings {
   std::function<bool(std::size_t done, std::size_t most)> progress = {};  ///< false: stop
 };
 
-/// Searches, and writes into `folder`: fit.csv, fit.json, fitted.yaml, study.yaml, scene.yaml, journal-0.txt. The same bits for any number
-/// of threads, and after any interruption.
+/// Searches, and writes into `folder`: fit.csv, fit.json, fitted.yaml, study.yaml, scene.yaml, journal-0.txt. Identical to the bit for any
+/// number of threads and interruptions.
 /// @throws SceneError, std::runtime_error  as run_sweep
 FitEnd run_fit(const FitPlan&, const std::filesystem::path& folder, const FitSettings&);
 

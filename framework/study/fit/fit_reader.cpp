@@ -117,7 +117,7 @@ Overrides FitPlan::overrides(const BoxPoint& u) const {
 
 std::vector<Optimiser> FitPlan::methods() const {
   if (method) return {*method};
-  // Peaks and ranges have kinks along valleys, where methods that model the measure get stuck, but simplex methods do not.
+  // Peaks and ranges have kinks along valleys. Methods that model the measure get stuck there, simplex methods do not.
   if (!goal.bounds.empty()) return {Optimiser::cobyla, Optimiser::nelder_mead, Optimiser::nelder_mead};
   if (variables.size() < 2) return {Optimiser::sbplx};  // bobyqa needs two
   return {Optimiser::bobyqa, Optimiser::nelder_mead, Optimiser::nelder_mead};

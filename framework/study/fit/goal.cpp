@@ -11,7 +11,7 @@ namespace pintle {
 
 namespace {
 
-/// "N m", "1/s", or nothing; values in a unit that the language does not have (of modal coordinates) are bare numbers.
+/// "N m", "1/s", or nothing: values in a unit that the scene language lacks (of modal coordinates) are bare numbers.
 Quantity one_of_unit(const std::string& unit) {
   try {
     if (!unit.empty()) return read_quantity(unit.starts_with("1/") ? unit : "1 " + unit);

@@ -30,13 +30,13 @@ struct Goal {
   std::vector<Bound> bounds = {};
 
   Worth worth(const std::vector<double>& values) const;
-  /// Every aim is within its tolerance; always true for minimise and maximise.
+  /// Whether every aim is within its tolerance; always true for minimise and maximise.
   bool reached(const std::vector<double>& values) const;
   /// Value below which further improvement is useless: 1e-4 of each tolerance; negative: none.
   double good_enough() const;
 };
 
-/// Reads `goal` and `subject to`; measures that they describe in words and that the study lacks are added to it.
+/// Reads `goal` and `subject to`; adds to the study the measures that they describe in words and it lacks.
 /// @throws SceneError
 Goal read_goal(const StudyFile&, Study&);
 

@@ -79,7 +79,7 @@ class Searching {
     for (unsigned i = 0; gradient && i < m; ++i) std::ranges::copy(s.slope_[i + 1], gradient + i * n);
   }
 
-  /// The value of a point; for an unknown one, and once the search is to end, worse than all seen so far.
+  /// The value of a point; a value worse than all so far if it is unknown or the search must end.
   Worth ask(const BoxPoint& x) {
     const Worth* found = trouble_ || ended_ ? nullptr : worth_(x);
     if (!found) {
@@ -119,7 +119,7 @@ class Searching {
     }
   }
 
-  /// Central differences, one-sided at the ends of the box or where a neighbour is unknown.
+  /// Central differences, one-sided at the ends of the box or if a neighbour is unknown.
   void find_slopes() {
     slope_.assign(settings_.constraints + 1, BoxPoint(n(), 0.0));
     const auto part = [](const Worth& w, std::size_t row) { return row == 0 ? w.value : w.excess[row - 1]; };
@@ -144,7 +144,7 @@ class Searching {
   BoxPoint x_;
   Worth here_, seen_;  ///< at x_; the largest value and excesses so far
   double least_ = 0;
-  double unit_ = 1;  ///< the first value: the first step of gradient methods is about as long as the slope
+  double unit_ = 1;  ///< the first value, which scales the problem: the first step of gradient methods is about as long as the gradient
   bool any_ = false, ended_ = false, good_ = false;
   std::vector<BoxPoint> slope_;  ///< of the value, then of each excess
   std::exception_ptr trouble_;

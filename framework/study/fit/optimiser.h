@@ -12,9 +12,9 @@ namespace pintle {
 enum class Optimiser { bobyqa, cobyla, nelder_mead, sbplx, slsqp, mma, direct, crs, isres };
 
 const char* name_of(Optimiser);
-/// Needs finite differences for the gradient.
+/// Whether it needs finite differences for the gradient.
 bool by_gradient(Optimiser);
-/// Searches the whole box instead of descending from a start.
+/// Whether it searches the whole box instead of descending from a start.
 bool looks_everywhere(Optimiser);
 bool takes_constraints(Optimiser);
 
@@ -26,7 +26,7 @@ struct Worth {
 
   double worst() const;  ///< the largest excess; 0 if all are satisfied
 };
-/// Both known: smaller excess, or if there is none, smaller value.
+/// Whether a is better than b, both known: smaller excess, or if there is none, smaller value.
 bool better(const Worth&, const Worth&);
 
 /// A point of the box [0, 1]ⁿ.

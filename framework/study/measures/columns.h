@@ -9,7 +9,7 @@
 
 namespace pintle {
 
-/// The columns of a run, by name without unit.
+/// The columns of a run, by their names without units.
 class Columns {
  public:
   explicit Columns(const Run& run) : run_(run) {}

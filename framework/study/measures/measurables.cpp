@@ -9,7 +9,7 @@ namespace pintle {
 
 namespace {
 
-/// The body before it was divided: "coupler" for "coupler 2", if there is a weld "coupler 1-2".
+/// Name of the body before it was divided: "coupler" for "coupler 2", if there is a weld "coupler 1-2".
 std::string whole_of(const Scene& scene, const std::string& piece) {
   const auto space = piece.rfind(' ');
   if (space == std::string::npos || piece.find_first_not_of("0123456789", space + 1) != std::string::npos) return "";

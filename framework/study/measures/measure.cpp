@@ -30,7 +30,7 @@ std::string rate_of(const std::string& part) {
   return "";
 }
 
-/// Until when a run was to go: one that an event stopped, until then.
+/// The time at which a run should end; if an event stopped it, the time of the event.
 double planned_end(const Scene& scene, const Run& run) {
   const bool in_order = run.status == Status::finished || run.status == Status::ledger_over_bound;
   return in_order ? std::min(scene.run.until, run.t_end) : scene.run.until;
@@ -106,7 +106,7 @@ class Measuring {
     return n;
   }
   bool is_asked(std::size_t contact) const { return asked_.owner.empty() || model_.system.contact_names[contact] == asked_.owner; }
-  /// A massless link never releases the journal: it is always at the wall, without impacts.
+  /// Whether a massless link holds the journal, which then is always at the wall, without impacts.
   bool held(std::size_t contact) const { return is_held(model_.system.contacts[contact]); }
   /// Contacts with a wall, in order of their begin; for two profiles those of all their pairs.
   std::vector<const Impact*> stays(std::size_t contact) const {
@@ -243,7 +243,7 @@ class Measuring {
     for (const char* part : {".von Mises", ".stress"})
       if (columns_.has(owner + part)) {
         Signal out = of(columns_.motion(owner + part), true);
-        out.smooth = false;  // of the worse fibre: its peak may have a kink
+        out.smooth = false;  // it may be the larger stress of two fibres: its peak may be a kink
         return out;
       }
     return {};

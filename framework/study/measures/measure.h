@@ -26,13 +26,13 @@ struct MeasuredValue {
   double value = 0;  ///< NaN: the run ended earlier, or there is no such quantity (the stress of a body that is rigid in this case)
   std::string unit;  ///< SI: "N", "J", "m"; may be empty
 };
-/// The value of a measure in a run. Of the scene, which is the one that was built, only the names are used.
+/// The value of a measure in a run. Only names are used of the scene, which is the one that was built.
 /// @throws SceneError  the words cannot be read, or name something the scene lacks; lists what it has
 MeasuredValue measured(const Measure&, const Scene&, const Model&, const Run&);
 /// Where the curve of a measure with a path passes its points. @pre it has a path
 std::vector<Passage> passages_of(const Measure&, const Scene&, const Run&);
 
-/// The measured quantity in each row of a run, without its statistic. Empty: there is no such quantity in this case.
+/// The measured quantity in each row of a run, before its statistic is taken. Empty: there is no such quantity in this case.
 std::vector<double> curve(const Measure&, const Scene&, const Model&, const Run&);
 
 /// Its unit, without a run. @throws SceneError  as above

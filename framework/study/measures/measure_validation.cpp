@@ -23,7 +23,7 @@ namespace {
   throw SceneError(m.file.empty() ? scene.file : m.file, place, "\"" + m.words + "\" " + message);
 }
 
-/// Quantities that only flexible bodies have.
+/// Whether only flexible bodies have this quantity.
 bool elastic(const Asked& a) {
   constexpr std::array<std::string_view, 11> columns{"ux", "uy", "turn", "N", "V", "M", "stress", "sx", "sy", "txy", "von Mises"};
   if (a.what == What::stress || a.what == What::displacement || a.what == What::deflection) return true;
@@ -46,7 +46,7 @@ std::string those_that_bend(const Scene& scene) {
   return names.empty() ? "every body of the scene is rigid" : "the flexible bodies are " + some_of(names, false);
 }
 
-/// "coil.depth" of a spring, "main.normal" of an ideal joint, which no case can have.
+/// Rejects columns that no case can have: "coil.depth" of a spring, "main.normal" of an ideal joint.
 void refuse_absent_column(const Measure& m, const Asked& asked, const Scene& scene, const std::vector<std::string>& varied) {
   if (asked.what != What::column || asked.owner.empty() || asked.part.find(' ') != std::string::npos) return;
   const std::string name = asked.owner + "." + asked.part;

@@ -5,7 +5,7 @@
 
 #include "framework/study/measures/measure_words.h"
 
-/// The words of measures; longer ones come first where one begins like another.
+/// The words of measures; if one word begins with another, the longer one comes first.
 namespace pintle {
 
 struct StatisticWord {
@@ -100,7 +100,7 @@ inline constexpr std::array ledger_columns{ColumnPart{"kinetic", "J"},    Column
                                            ColumnPart{"contacts", "J"},   ColumnPart{"strain", "J"},  ColumnPart{"stored", "J"},
                                            ColumnPart{"unexplained", "J"}};
 
-/// Of a force: its part, or the whole.
+/// Parts of a force, or the whole.
 struct ForceWord {
   const char *words, *part;
 };
@@ -117,7 +117,7 @@ inline constexpr std::array force_words{ForceWord{"force x", "x"},
                                         ForceWord{"driving force", ""},
                                         ForceWord{"force", ""}};
 
-/// What energy is lost to.
+/// Causes of energy loss.
 struct AccountWord {
   const char *words, *column;
 };

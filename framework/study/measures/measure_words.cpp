@@ -120,7 +120,7 @@ class Reading {
     fail("\"" + rest + "\" begins with no " + kind + " of this scene." +
          (names.empty() ? std::string(" It has none.") : did_you_mean(rest.substr(0, rest.find(" at ")), names)) + described(measurables_));
   }
-  /// An optional name: it is present if the words after "at" are one.
+  /// An optional name: it is present if the words after "at" are a name.
   std::string may_have(const Names& names) {
     const std::size_t before = words_.place();
     words_.take_any({"at", "of", "in", "by"});
@@ -383,7 +383,7 @@ class Reading {
   const Scene& scene_;
   Words words_;
   Measurables measurables_;
-  std::string why_not_;  // it is no expression
+  std::string why_not_;  // the reason why it is no expression
   Asked asked_;
 };
 

@@ -45,16 +45,16 @@ struct Asked {
   std::string part = {};
   double from = 0, to = std::numeric_limits<double>::infinity();  ///< [s]; infinity: the end of the run
   double last = 0;                                                ///< the window is as long, up to the end [s]; 0: it begins at `from`
-  std::optional<SceneOutput> expression = {};                     ///< what is `written`, where the scene has no output of it
+  std::optional<SceneOutput> expression = {};                     ///< the expression to be `written`, if it is no output of the scene
   bool instant = false;                                           ///< the value at `from`, which equals `to`
   std::string unit = {};                                          ///< of the result
 };
 
-/// Grows with time, so that without a statistic its change in the window is meant.
+/// Whether it accumulates over time: without a statistic, its change in the window is meant.
 bool cumulative(What);
 
 /// @throws SceneError  the words cannot be read, name something the scene lacks, or ask for something that the measure's analysis does not
-/// provide; lists what there is
+/// provide; the message lists what exists
 Asked read_measure(const Measure&, const Scene&);
 
 }  // namespace pintle

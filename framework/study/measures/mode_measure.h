@@ -19,7 +19,7 @@ struct AskedMode {
 /// @throws SceneError  the words cannot be read, or name a body without modes
 AskedMode read_mode_measure(const Measure&, const Scene&);
 
-/// NaN where there are fewer modes.
+/// NaN if there are fewer modes.
 double value_of(const AskedMode&, const Linearization&);
 double value_of(const AskedMode&, const ModesReport&);
 

@@ -82,7 +82,7 @@ bool closes(const Curve2& c) {
   return std::hypot(c.x.back() - c.x.front(), c.y.back() - c.y.front()) <= 1e-6 * std::hypot(x1 - x0, y1 - y0);
 }
 
-/// The rows of the points, whichever point the curve passes first.
+/// The rows of the points, for any point that the curve may pass first.
 std::vector<std::size_t> rows_in_order(const PathTarget& target, const Curve2& c) {
   const std::size_t n = target.through.size();
   const bool closed = closes(c);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Distance of the curve of a point from the points that it should pass.
+/// Distance between the path of a point of a body and the points that it should pass.
 namespace pintle {
 
 /// The order in which the curve passes the points of a target.

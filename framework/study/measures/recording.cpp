@@ -7,7 +7,7 @@
 #include "framework/study/measures/measure_words.h"
 #include "framework/study/measures/mode_measure.h"
 
-// What a run must record for its measures.
+// The data that a run must record for its measures.
 namespace pintle {
 
 namespace {

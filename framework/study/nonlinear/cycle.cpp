@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_newton = 25, most_halvings = 8;
-constexpr double at_once = 1e-4;       // of the period: an earlier return is that of the point itself
+constexpr double at_once = 1e-4;       // of the period: an earlier return is the start point itself
 constexpr double no_direction = 1e-3;  // of the largest displacement: the constraints do not allow this direction
 constexpr double same_for_any_time = 1e-6;
 constexpr double singular = 1e-7;      // of the largest pivot: smaller ones mean a family of orbits; the nearest is taken
@@ -35,7 +35,7 @@ constexpr int most_distances = 4;
 constexpr double shortest_distance = 1e-6;
 constexpr const char* no_orbit = "no periodic orbit";
 
-/// Removes whole turns from the angles of bodies: a crank that has turned once is where it was.
+/// Removes whole turns from the angles of bodies: a crank that has made one turn is at the same position.
 void without_turns(const System& system, VectorXd& difference) {
   constexpr double turn = 2 * std::numbers::pi;
   for (Index k = 2; k < system.n_rigid(); k += 3) difference[k] -= turn * std::round(difference[k] / turn);
@@ -114,7 +114,7 @@ class Shooting {
     return apart(head(*integrator), point);
   }
 
-  /// Whether the same point goes the same way, begun `later` and some turns on.
+  /// Whether the motion from the same point is the same if it starts `later`, and with its angles increased by `turns`.
   bool goes_alike(double later, const VectorXd& turns) const {
     try {
       const auto integrator = begin(point_ + turns, later);
@@ -127,7 +127,7 @@ class Shooting {
     }
   }
 
-  /// That bodies have made in a round: a driver has its crank go on from there.
+  /// The whole turns that bodies make in one period: the law of a driver continues from the angle after them.
   VectorXd turns_of_a_round() const {
     const auto integrator = begin(point_);
     go_round(*integrator);
@@ -137,9 +137,10 @@ class Shooting {
     return whole - rest;
   }
 
-  /// An orbit closes only where time does: for returns by the clock after a period, for those that are events at any time.
+  /// Checks that laws allow a closed orbit: returns at equal times require laws that repeat after the period; returns at events require
+  /// laws that do not depend on time.
   void check_time() const {
-    constexpr double irrational = 0.381966;  // of the period: no simple part of any
+    constexpr double irrational = 0.381966;  // of the period: no simple fraction of the period of a law
     const VectorXd none = VectorXd::Zero(scales_.size());
     if (run_.interval == 0 && !goes_alike(irrational * run_.expected, none))
       throw OrbitTrouble{no_orbit, "laws or drivers depend on time: an orbit closes after their period; name it as section.every"};
@@ -192,7 +193,7 @@ class Shooting {
     return apart(head(neighbour_), point_);
   }
 
-  /// Of neighbours: the given one, otherwise the shortest of those that are compared.
+  /// Distance of neighbours: the given one, otherwise the shortest of those compared.
   double first_distance() const { return run_.distance > 0 ? run_.distance : shortest_distance; }
 
   /// An orthonormal basis of the directions that the constraints allow.
@@ -230,7 +231,7 @@ class Shooting {
     return before.transpose().fullPivHouseholderQr().solve(after.transpose()).transpose();
   }
 
-  /// At the point found. A distance that was asked for is kept; that ten times as long only tells its error.
+  /// The derivative at the point found. A given distance is used as it is; one ten times as long only serves to estimate the error.
   BoundedDerivative derivative() {
     const std::string here = begin(point_)->save();
     const MatrixXd directions = directions_at(here);
@@ -240,7 +241,7 @@ class Shooting {
         all.push_back(derivative_along(here, directions, distance));
       } catch (const OrbitTrouble& trouble) {
         if (k == 0 || trouble.status == status_text(Status::interrupted)) throw;
-        break;  // a neighbour so far away goes nowhere
+        break;  // a neighbour so far away does not return
       }
     if (run_.distance > 0 && all.size() == 2) return {all[0], (all[1] - all[0]).cwiseAbs().array() + run_.tolerance};
     return best_of_distances(all, run_.tolerance);
@@ -258,7 +259,7 @@ class Shooting {
     std::ranges::sort(order, [&](Index a, Index b) {
       return std::abs(all[a]) != std::abs(all[b]) ? std::abs(all[a]) > std::abs(all[b]) : std::arg(all[a]) > std::arg(all[b]);
     });
-    if (run_.interval == 0) order.pop_back();  // along the motion itself the section makes it 0
+    if (run_.interval == 0) order.pop_back();  // along the motion itself the multiplier is 0, because of the section
     for (const Index j : order) out.re.push_back(all[j].real()), out.im.push_back(all[j].imag()), out.error.push_back(errors[j]);
   }
 

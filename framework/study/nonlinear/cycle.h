@@ -17,7 +17,7 @@ struct CycleRun {
   double expected = 1;  ///< approximate time of all of them [s]
   double longest = 1;   ///< time limit for them [s]
   double tolerance = 1e-8;
-  double distance = 0;  ///< of neighbours, in scaled coordinates; 0: the best of several
+  double distance = 0;  ///< of neighbours, in scaled coordinates; 0: the best of several is chosen
 };
 
 /// Coordinates, speeds and states near a point of the wanted orbit.
@@ -27,7 +27,7 @@ using CycleGuess = Eigen::VectorXd;
 /// the eigenvalues of the map's derivative, by central differences of neighbours on the constraints.
 /// @param near  the motion at a return: its time, its modes, and the whole turns of its angles
 /// @param read  reads the signals at a return
-/// @throws OrbitTrouble  none is found, or the run cannot continue
+/// @throws OrbitTrouble  no orbit is found, or the run cannot continue
 Cycle find_cycle(const Model&, const State& near, const CycleGuess&, const CycleRun&,
                  const std::function<std::vector<double>(Integrator&)>& read, const std::function<bool()>& go_on);
 

@@ -16,7 +16,7 @@ BoundedDerivative best_of_distances(const std::vector<MatrixXd>& all, double flo
   const std::size_t n = all.size();
   if (n == 1) return {all[0], MatrixXd::Constant(all[0].rows(), all[0].cols(), std::numeric_limits<double>::quiet_NaN())};
   std::vector<MatrixXd> errors(n, MatrixXd::Constant(all[0].rows(), all[0].cols(), floor));
-  // Of the shortest distance the noise is the whole first change; from there on each longer one has a tenth of it, or of a greater change.
+  // The noise at the shortest distance is the whole first change; at each longer one it is a tenth of that before, or of a greater change.
   MatrixXd noise = (all[1] - all[0]).cwiseAbs(), noise_before = noise;
   errors[0] += noise;
   for (std::size_t k = 1; k < n; ++k) {
@@ -24,7 +24,7 @@ BoundedDerivative best_of_distances(const std::vector<MatrixXd>& all, double flo
     noise = noise_part * noise.cwiseMax((all[k] - all[k - 1]).cwiseAbs());
     errors[k] += noise;
   }
-  // Of the longest the curvature is the whole last change, and what noise may have hidden of it.
+  // The curvature error at the longest distance is the whole last change, plus the noise that may hide part of it.
   MatrixXd curvature = (all[n - 1] - all[n - 2]).cwiseAbs() + noise_before;
   errors[n - 1] += curvature;
   for (std::size_t k = n - 1; k-- > 0;) {

@@ -109,7 +109,7 @@ class Neighbours {
   std::vector<std::unique_ptr<Integrator>> apart_;
 };
 
-/// By the scatter of the means over batches of intervals, which are nearly independent.
+/// Standard error from the scatter of means over batches of intervals, which are nearly independent [1/s].
 double scatter_of_batches(const std::vector<VectorXd>& logs, Index j, double interval, double value) {
   const std::size_t n = logs.size(), size = n / exponent_batches;
   double squares = 0;
@@ -121,8 +121,8 @@ double scatter_of_batches(const std::vector<VectorXd>& logs, Index j, double int
   return std::sqrt(squares / (exponent_batches * (exponent_batches - 1.0)));
 }
 
-/// By where in its own rise and fall the time begins and ends: the range of the logarithm of the distance about its mean growth, over the
-/// time. Growth that comes again and again has no other error, and this one of 1/time is not seen by batches.
+/// Error from the ends of the time [1/s]: the range of the logarithm of the distance about its mean growth, over the time. Periodic growth
+/// has no other error; batches do not show this one, which falls as 1/time.
 double offset_of_ends(const std::vector<VectorXd>& logs, Index j, double interval, double value) {
   double at = 0, least = 0, most = 0;
   for (const VectorXd& one : logs) {

@@ -10,7 +10,7 @@ namespace pintle {
 struct LyapunovRun {
   int count = 1;
   double interval = 0;     ///< [s]
-  long transient = 0;      ///< intervals before counting, in which neighbours turn to the directions of growth
+  long transient = 0;      ///< intervals before counting, in which neighbours align with the directions of growth
   long intervals = 1;      ///< counted
   double distance = 1e-6;  ///< of neighbours, in scaled coordinates
 };

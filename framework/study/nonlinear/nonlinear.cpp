@@ -173,7 +173,7 @@ class ChainWorkers {
   TaskQueue queue_;
   BodyStore bodies_;
   std::vector<std::thread> threads_;
-  std::function<void()> report_;  ///< called by the motion itself where there is no thread
+  std::function<void()> report_;  ///< called during the computation if there are no other threads
   std::atomic<bool> stopped_ = false;
   std::atomic<int> running_ = 0;
   std::mutex mutex_;  ///< protects the members below

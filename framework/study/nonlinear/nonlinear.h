@@ -41,8 +41,8 @@ struct Underway {
   std::string at;    ///< progress of the last of these: "return 37 of 200"
 };
 
-/// Computes the values that are missing in `folder` and writes section.csv, values.csv, orbits.csv and lyapunov.csv beside the files of a sweep.
-/// They are the same to the bit for any number of workers and after any number of kills.
+/// Computes the values missing in `folder` and writes section.csv, values.csv, orbits.csv and lyapunov.csv beside the files of a sweep.
+/// They are identical to the bit for any number of workers and interruptions.
 /// @param far  called with the progress, before the settings' progress
 /// @throws as run_sweep
 SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, const SweepSettings&,
@@ -50,8 +50,8 @@ SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, co
 
 /// Results of one value.
 struct FollowedValue {
-  std::string parameter;  ///< in SI, or as written; empty where none varies
-  double x = 0;           ///< as a number; its position in the list if it is none
+  std::string parameter;  ///< in SI, or as written; empty if none varies
+  double x = 0;           ///< as a number; if it is none, its position in the list
   bool backwards = false;
   std::string status, reason;
   Orbit orbit;
@@ -60,7 +60,7 @@ struct FollowedValue {
 /// @pre rows are of this study
 std::vector<FollowedValue> followed(const Nonlinear&, const std::vector<Row>& rows);
 std::string parameter_header(const Nonlinear&);
-/// The parameter of each case as a number, or its position in the list if it is none.
+/// The parameter of each case as a number; if it is none, its position in the list.
 std::vector<double> parameter_numbers(const Nonlinear&);
 /// "height [m]"
 std::vector<std::string> signal_headers(const Nonlinear&, const std::vector<Row>& rows);

@@ -140,7 +140,7 @@ std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Ro
 }
 
 std::vector<std::vector<std::string>> headings_of_tables(const Nonlinear& study) {
-  constexpr std::size_t multipliers = 100;  // only the steps show how many there are
+  constexpr std::size_t multipliers = 100;  // their number is known only from the steps
   std::vector<Headings> out{value_headings(study)};
   if (study.question.section) out.push_back(section_headings(study, {}));
   if (study.question.cycle) out.push_back(orbit_headings(study, {}, multipliers));

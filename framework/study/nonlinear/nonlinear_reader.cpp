@@ -26,7 +26,7 @@ class ExpressionCheck {
       build(case_scene(source_, all));
     } catch (const SceneError& error) {
       const std::string of_it = about(error.what(), put);
-      if (of_it.empty()) throw;  // the message concerns another override and names it
+      if (of_it.empty()) throw;  // the error concerns another override, which its message names
       node.fail(of_it);
     }
   }
@@ -87,7 +87,7 @@ SectionQuestion read_section(const Node& node, const ExpressionCheck& expression
   if (node.has("transient")) out.transient = read_count(node.at("transient"), 0);
   if (node.has("returns")) out.returns = read_count(node.at("returns"), 2);  // fewer cannot repeat
   if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
-  // One after another, so that the error names the wrong one.
+  // One after another, so that an error names the one concerned.
   OrbitQuestion question;
   question.section = out;
   const Overrides all = recording(question);

@@ -131,7 +131,7 @@ class Following {
     first_ = from, last_ = scene_.run.until;
     longest_ = by_time ? question.section->returns * out.orbit.interval : last_ - from;
     if (question.cycle)
-      scene_.run.until += longest_ + question.cycle->period * out_.orbit.interval;  // begun a period later too, to judge laws
+      scene_.run.until += longest_ + question.cycle->period * out_.orbit.interval;  // also started a period later, to check the laws
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared, so one method integrates all of them to the end

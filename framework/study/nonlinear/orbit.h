@@ -54,13 +54,13 @@ struct ImpactFigures {
   double count = 0;                                          ///< that began in that time
   double interval = 0;                                       ///< between beginnings, mean [s]
   double least_approach = 0, median = 0, most_approach = 0;  ///< [m/s]
-  double grazing = 0;                                        ///< number that are slower than grazing_share of the median
+  double grazing = 0;                                        ///< number of those slower than grazing_share of the median
   double contact_share = 0;                                  ///< share of the time in contact, summed over contacts
 };
 inline constexpr double grazing_share = 0.05;
 
-/// An exponent and its error [1/s]: the larger of the standard error from the means of batches of intervals, and what the beginning and the
-/// end of the time leave. It is NaN with fewer intervals than batches.
+/// An exponent and its error [1/s]: the larger of the standard error from the means of batches of intervals and the error due to the ends
+/// of the time. NaN with fewer intervals than batches.
 struct Exponent {
   double value = 0, error = 0;
 };
@@ -74,7 +74,7 @@ struct Cycle {
   double period = 0;                         ///< [s]
   double least = 0;                          ///< smallest number of returns after which it closes
   std::vector<double> re, im;                ///< of its Floquet multipliers, largest modulus first
-  std::vector<double> error;                 ///< of each, how far it may be off; NaN: not known
+  std::vector<double> error;                 ///< error bound of each; NaN: not known
   double continued = 0;                      ///< 1: found from the orbits of previous values; 0: from the motion
   std::vector<double> point_before;          ///< orbit of the previous value, if continued from it
   double x_before = 0;
@@ -101,7 +101,7 @@ struct Orbit {
   std::vector<double> running_t;             ///< [s]
   std::vector<std::vector<double>> running;  ///< estimates of the exponents at these times
   double interval = 0;                       ///< of a section by time [s]
-  double end_t = 0;                          ///< time of the final state
+  double end_t = 0;                          ///< time of the final state [s]
   std::vector<double> end;                   ///< final coordinates, speeds and states; empty if there are none
 
   /// All members as numbers, which a journal stores exactly.
@@ -129,7 +129,7 @@ LyapunovTimes lyapunov_times(const CaseSource&, const Overrides&, const Lyapunov
 
 /// Limits of one value.
 struct OrbitLimits {
-  double seconds = 0;  ///< of computing; 0: unlimited
+  double seconds = 0;  ///< of computing [s]; 0: unlimited
   /// Called from time to time with the finished share and the progress in words; returns false to interrupt.
   std::function<bool(double share, const std::string& at)> go_on = {};
 };
@@ -140,7 +140,8 @@ OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&,
                       const OrbitLimits&);
 
 /// The smallest number of returns after which all signals repeat within `tolerance`, relative to the largest magnitude of each; 0 if none does
-/// up to half of the returns. A signal below a millionth of another of its unit is 0 but for rounding, and counts as so large.
+/// up to half of the returns. A signal smaller than a millionth of another with its unit counts as that large, since it may be only
+/// rounding.
 std::size_t period_of(const std::vector<std::vector<double>>& signals, const std::vector<std::string>& units, double tolerance);
 
 }  // namespace pintle

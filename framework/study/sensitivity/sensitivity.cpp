@@ -10,7 +10,7 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Values of one measure by case, from 0; NaN where there is none.
+/// Values of one measure by case, from 0; NaN if there is none.
 std::vector<double> values_of(const SensitivityPlan& plan, const std::vector<Row>& rows, std::size_t measure) {
   std::vector<double> out(plan.cases(), no_value);
   for (const Row& r : rows)

@@ -23,7 +23,7 @@ struct SobolIndex {
   Share total;  ///< share that would remain if all other inputs were known: (f(A) − f(AB))²/2, Jansen (1999)
 };
 
-/// For each input; NaN where fewer than two points are left, or nothing varies.
+/// For each input; NaN if fewer than two points are left, or nothing varies.
 std::vector<SobolIndex> sobol_indices(const SobolValues&, std::uint64_t seed);
 
 /// x with Φ(x) = u, for the standard normal distribution; within ±9. @pre 0 ≤ u < 1

@@ -14,7 +14,7 @@ class Communicator {
   virtual int size() const = 0;
   /// @pre not to itself
   virtual void send(int to, std::span<const std::int64_t>) = 0;
-  /// The next message, if one has arrived; never waits.
+  /// The next message, or nothing if none has arrived; does not wait.
   virtual bool receive(int& from, std::vector<std::int64_t>&) = 0;
 };
 

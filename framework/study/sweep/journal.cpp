@@ -111,7 +111,7 @@ bool within(double seconds, const std::function<bool()>& holds) {
   return true;
 }
 
-/// On a file system without locks, everything counts as free.
+/// Locks a file, waiting for at most `patience` [s]. @returns false if another process holds the lock; true on a file system without locks
 bool locked(int file, int how, double patience) {
   return within(patience, [&] { return ::flock(file, how | LOCK_NB) == 0 || errno != EWOULDBLOCK; });
 }

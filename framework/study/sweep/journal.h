@@ -29,7 +29,7 @@ struct Row {
   std::map<std::string, std::string> curves = {};  ///< name of each kept curve and fingerprint of its text
 };
 
-/// Its process ran out of memory, which says nothing about the case: it is run again when the sweep continues.
+/// Its process ran out of memory, for which the case may not be the cause: it is run again when the sweep continues.
 bool lacked_memory(const Row&);
 
 /// One line: a checksum and the row; numbers are restored to the bit.
@@ -73,7 +73,7 @@ std::filesystem::path journal_path(const std::filesystem::path& folder, int rank
 /// All journals in the folder, rows in the order of their numbers, each number once: the first row, or the one after a lack of memory. An
 /// incomplete last line is ignored.
 /// @param cases  of the study  @param notes  receives what was ignored, if not null
-/// @param remedy  what a user does about a damaged journal; empty: continue or repeat the sweep
+/// @param remedy  advice for a damaged journal; empty: continue or repeat the sweep
 /// @throws OtherStudy          one belongs to another study
 /// @throws SceneError          one is damaged otherwise, or holds a case that the study does not have: naming file and line
 std::vector<Row> read_journals(const std::filesystem::path& folder, std::uint64_t study, std::size_t cases,

@@ -74,7 +74,7 @@ void validate_together(const std::vector<Found>& parts) {
   }
 }
 
-/// "parts 3 and 7 of 8"; the first of many.
+/// "parts 3 and 7 of 8"; of many, only the first ones.
 std::string parts_text(const std::vector<std::size_t>& numbers, std::size_t count) {
   constexpr std::size_t most = 20;
   std::vector<std::string> words;
@@ -83,7 +83,7 @@ std::string parts_text(const std::vector<std::size_t>& numbers, std::size_t coun
   return (numbers.size() == 1 ? "part " : "parts ") + listed(words, "and") + " of " + std::to_string(count);
 }
 
-/// A name as a shell reads it.
+/// A name quoted for a shell.
 std::string shell_word(const std::string& name) {
   const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("/._-+=:,@%").find(c) != npos; };
   if (!name.empty() && std::ranges::all_of(name, plain)) return name;
@@ -142,7 +142,7 @@ void read_rows(Found& part, std::vector<std::string>& notes) {
                            "; remove the folder and run the part again");
 }
 
-/// The study as far as tables show it.
+/// The part of the study that tables show.
 void read_study_of(const Found& part, Merged& merged) {
   const std::string path = (part.folder / "study.yaml").string();
   StudyFile file;
@@ -160,7 +160,7 @@ void read_study_of(const Found& part, Merged& merged) {
   merged.keeps_curves = root.has("keep");
 }
 
-/// @throws SceneError  a curve is not as its case wrote it
+/// @throws SceneError  a curve is missing or changed
 void validate_curves(const Found& part) {
   for (const Row& row : part.rows)
     if (const std::string fault = fault_of_curves(part.folder, row); !fault.empty())
@@ -190,7 +190,7 @@ void validate_finished(const std::vector<Found>& parts) {
                      ": " + command_for(*first) + and_set);
 }
 
-/// Moves the processes of a part behind those of the parts before. @returns how many there are
+/// Renumbers the processes of a part after those of the parts before. @returns the number of its processes
 std::size_t shift_workers(std::vector<Row>& rows, std::size_t before) {
   std::size_t processes = 0;
   for (Row& row : rows) {

@@ -5,10 +5,10 @@
 
 #include "framework/study/sweep/sweep.h"
 
-/// The parts of a sweep, joined to what the whole would have written. docs/studies.md
+/// Joins the parts of a sweep to the files that the whole sweep would have written. docs/studies.md
 namespace pintle {
 
-/// A whole sweep, as read from the folders of its parts. Of the study only what tables show is known.
+/// A whole sweep, read from the folders of its parts. It has only the part of the study that tables show.
 struct Merged {
   Sweep sweep;
   SweepEnd end;                                ///< with the rows of all parts
@@ -17,12 +17,12 @@ struct Merged {
 };
 
 /// Reads the folders of all parts, in any order.
-/// @throws SceneError          one holds no part, one of another study or a damaged one; parts are missing, doubled or not finished
-/// @throws std::runtime_error  a process still works on one
+/// @throws SceneError          a folder holds no part, a damaged one or one of another study; parts are missing, duplicate or unfinished
+/// @throws std::runtime_error  a process is still working on a part
 Merged read_parts(const std::vector<std::filesystem::path>& folders);
 
-/// Fills an existing folder with the files of a whole sweep. A worker of process p of part i counts as one of process p plus the number of
-/// processes in the parts before. @throws FileError
+/// Fills an existing folder with the files of a whole sweep. Process p of a part becomes process p plus the number of processes of the
+/// parts before. @throws FileError
 void write_merged(const Merged&, const std::filesystem::path& folder);
 
 }  // namespace pintle

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All but the file's name, which may be another one when the part is continued.
+/// All except the file's name, which may differ when the part is continued.
 Json identity(const PartFile& p) {
   return {{"program", "pintle"},    {"version", p.version},       {"part", p.part.number},      {"of", p.part.count},    {"cases", p.cases},
           {"fingerprint", p.study}, {"study.yaml", p.study_text}, {"scene.yaml", p.scene_text}, {"measures", p.measures}};

@@ -81,7 +81,7 @@ Cases grid(const Node& section) {
   std::size_t n = 1;
   for (const Node& axis : named(section)) {
     const std::size_t here = value_count(axis);
-    if (here > most_cases) values(axis);  // says so
+    if (here > most_cases) values(axis);  // reports it
     if (n > most_cases / here) section.fail("has more than " + std::to_string(most_cases) + " combinations; use fewer values, or random");
     n *= here;
   }

@@ -12,7 +12,7 @@
 #include "framework/scene/yaml/yaml_node.h"
 
 /// The cases of a sweep: docs/studies.md. The same study gives the same cases on every machine, to the bit: random numbers, powers and
-/// rounding here use nothing that the C++ standard or IEEE 754 leaves open.
+/// rounding here use only operations that the C++ standard and IEEE 754 define exactly.
 namespace pintle {
 
 /// The varied quantities and their values in each case. Numbers are in SI, as the shortest decimal of twelve digits.

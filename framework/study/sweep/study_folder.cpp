@@ -44,7 +44,7 @@ std::string text_or_nothing(const fs::path& path) {
   }
 }
 
-/// The share of this study's cases that the folder holds, if that is another one than asked for; empty if the study is another.
+/// The part of this study that the folder holds, if it is not the requested one; empty if the study is another.
 std::string other_share(const Sweep& sweep, const fs::path& folder) {
   try {
     if (const fs::path file = folder / "part.json"; fs::exists(file)) {

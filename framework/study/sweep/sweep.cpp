@@ -23,9 +23,9 @@ using clock = std::chrono::steady_clock;
 enum Word : std::int64_t {
   go,      ///< 0 to all: the folder is ready
   reject,  ///< 0 to all: there is nothing to do
-  ask,     ///< to 0: idle threads; then what was done since
+  ask,     ///< to 0: number of idle threads; then the work done since the last message
   deal,    ///< 0 to one: whether these were the last; then numbers of cases
-  leave,   ///< to 0: whether it was stopped; then what was done since
+  leave,   ///< to 0: whether it was stopped; then the work done since the last message
   bye,     ///< 0 to one that is leaving
   halt     ///< 0 to all: stop
 };
@@ -146,7 +146,7 @@ class Leader {
   WorkerPool workers_;
 };
 
-/// Any other process: requests cases when its last one has been drawn, so that more have arrived when that is done.
+/// Any other process: requests cases when a worker draws its last one, so that more arrive before that is finished.
 class Follower {
  public:
   Follower(const Sweep& sweep, Journal& journal, const fs::path& folder, const SweepSettings& settings)

@@ -25,14 +25,14 @@ struct Sweep {
   std::string text;                    ///< of the study file
   std::uint64_t print = 0;             ///< fingerprint of the study, its scene, the files they name, and the program
   std::vector<Measure> keep = {};      ///< quantities for which each case writes a curve, curves/case-N.csv
-  std::optional<SweepPart> part = {};  ///< of the cases, if not all are to be run
+  std::optional<SweepPart> part = {};  ///< the part of the cases to run; none: all
 
-  bool has(std::size_t k) const { return !part || part->has(k); }                           ///< case k, from 1, is to be run
+  bool has(std::size_t k) const { return !part || part->has(k); }                           ///< whether case k, from 1, must be run
   std::size_t size() const { return part ? cases_in(*part, cases.size()) : cases.size(); }  ///< number of cases to be run
-  /// In the headings of its journals: the study's, or a part's own.
+  /// Fingerprint in the headings of its journals: the study's, or the part's own.
   std::uint64_t journal_print() const;
 };
-/// The name of the table in its folder: that of a part is not to be mistaken for the whole.
+/// Name of the table in its folder; a part's has another name than that of a whole sweep.
 const char* table_name(const Sweep&);
 
 /// Reads a study with a section `sweep`, and some of its cases, so that a study with no readable case is rejected at once. `set` applies to
@@ -59,7 +59,7 @@ struct SweepCount {
   std::size_t done = 0;     ///< finished in this session
   std::size_t trouble = 0;  ///< of these, not "finished"
   double busy = 0;          ///< total time of all workers spent on cases [s]
-  double seconds = 0;       ///< since the start of the session
+  double seconds = 0;       ///< since the start of the session [s]
 };
 
 struct SweepSettings {
@@ -88,7 +88,7 @@ struct SweepEnd {
 SweepEnd run_sweep(const Sweep&, const std::filesystem::path& folder, const SweepSettings&);
 
 /// For a process that cannot call run_sweep. Process 0 tells the others that there is nothing to do; any other process receives this
-/// message (returns true), or, if the sweep is running, leaves it, which stops all.
+/// message (returns true), or, if the sweep is running, leaves it, which stops all processes.
 void reject_all(Communicator&);
 bool rejected(Communicator&);
 void stay_away(Communicator&);

@@ -55,7 +55,7 @@ std::string behind_number(const std::string& text) {
   return std::from_chars(text.data(), text.data() + text.size(), number).ptr;
 }
 
-/// Distinguishes an error in the study from one in a case: by the reader's errors for some of the cases.
+/// Distinguishes an error in the study from one in a case, by the reader's errors for some of the cases.
 class CaseCheck {
  public:
   explicit CaseCheck(const Sweep& sweep) : sweep_(sweep) {}
@@ -127,7 +127,7 @@ class CaseCheck {
     }
   }
 
-  /// If the scene cannot be read in any of some cases, the study is wrong.
+  /// If the scene cannot be read in any of the tested cases, the error is in the study.
   void validate_all() const {
     const std::size_t n = std::min(most, sweep_.cases.size());
     std::string first;

@@ -21,10 +21,10 @@ struct Varied {
   std::vector<std::string> fields;  ///< of all cases
 };
 
-/// In each case; nothing where there is none.
+/// In each case; nothing if there is none.
 using Quantities = std::vector<std::optional<Quantity>>;
 
-/// The unit in which the scene accepted the values of a name; if none has been accepted, the first one written. Nothing if there were
+/// The unit in which the scene accepted the values of a name; if none has been accepted, the first one written. Nothing if there are
 /// several.
 std::optional<std::string> unit_of(const Quantities& values, const std::vector<bool>& taken) {
   std::string first, out;

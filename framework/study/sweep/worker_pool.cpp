@@ -83,7 +83,7 @@ void WorkerPool::news() {
 void WorkerPool::work(int thread) {
   try {
     while (const std::optional<std::size_t> number = queue_.draw()) {
-      if (queue_.left() == 0) news();  // the only event that is waited for
+      if (queue_.left() == 0) news();  // the only event that the caller waits for
       run(*number, thread);
     }
   } catch (...) {

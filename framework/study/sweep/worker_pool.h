@@ -16,11 +16,11 @@
 
 namespace pintle {
 
-/// What is said where only some threads of those asked for could be started, and why.
+/// The message that only some of the requested threads could be started, and why.
 std::string shortage_of_threads(std::size_t started, int asked, const char* why);
 
-/// Worker threads of one process that draw cases from a task queue, run them and write them to a journal. If the system refuses some of
-/// them, the others do the work; if it refuses all, the caller does (`work_here`).
+/// Worker threads of one process that draw cases from a task queue, run them and write them to a journal. If the system cannot start some
+/// of them, the others do the work; if it can start none, the caller does (`work_here`).
 class WorkerPool {
  public:
   struct Tally {
@@ -36,8 +36,8 @@ class WorkerPool {
   TaskQueue& queue() { return queue_; }
   bool home() const;    ///< all threads have ended, or without threads: all cases are done
   int workers() const;  ///< threads, or the caller
-  int idle() const;     ///< of them, without a case
-  /// Why there are fewer threads than requested; empty: there are not.
+  int idle() const;     ///< number of these without a case
+  /// Why there are fewer threads than requested; empty if there are not.
   const std::string& shortage() const { return shortage_; }
   /// Without threads: runs a case of the task queue, if there is one, and calls `poll` often during it.
   void work_here(const std::function<void()>& poll);

@@ -7,7 +7,7 @@ namespace pintle {
 
 struct Run;
 
-/// What successive refinements of a number show about the last value.
+/// Convergence of a number under successive refinements.
 struct Ladder {
   std::vector<double> differences;  ///< magnitudes, of neighbours
   double ratio = 0;                 ///< by which they fall per step, geometric mean; 0: they do not fall
@@ -17,7 +17,7 @@ struct Ladder {
 };
 
 /// @param values  coarse to fine, at least two
-/// @param cap  largest assumed ratio per step, whatever is observed
+/// @param cap  upper limit of the ratio per step, even if the observed one is larger
 /// @param scale  of the value, to identify rounding
 /// The error is three times the remainder of a geometric series beyond the last difference (the larger of it and the one predicted from the
 /// difference before), so that a difference small by chance does not reduce it. Where differences do not fall, it is the largest of the
@@ -35,7 +35,7 @@ Sample sample_of(const std::vector<double>& values);
 struct Parting {
   double first = 0, last = 0;  ///< largest difference relative to a column's range: early (first twentieth of the rows), and overall
   double rate = 0;             ///< exponential growth [1/s], fitted below saturation; 0: too few points
-  /// They begin close and end far apart, like disturbances that grow exponentially rather than with a power of time.
+  /// Whether they begin close and end far apart, as with a disturbance that grows exponentially, not as a power of time.
   bool chaotic() const { return last > 1e-3 && last > 1e3 * first && rate > 0; }
 };
 Parting parting(const Run&, const Run&);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 4> more_is_finer{"elements", "pieces", "count", "below"};
 constexpr std::array<std::string_view, 4> less_is_finer{"size", "hole size", "tolerance", "max step"};
 constexpr std::array<std::string_view, 6> words{"method", "constraints", "onset", "model", "theory", "element"};
-/// For words without an order, those considered most accurate, if present, the first ones first.
+/// For values that are words: those considered most accurate, in decreasing order of preference.
 constexpr std::array<std::string_view, 6> faithful{"auto", "verner87", "dopri5", "projection", "contact", "timoshenko"};
 
 template <class List>

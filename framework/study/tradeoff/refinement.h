@@ -9,10 +9,10 @@ namespace pintle {
 
 /// Refines the accuracy settings in an override of a scene: the last keys of its path and of the paths within its value. Counts of
 /// elements, pieces and modes and limits of frequency are doubled, sizes halved.
-/// @returns nothing where there are none
+/// @returns nothing if there are none
 std::optional<std::string> refined(const std::string& path, const std::string& text);
 
-/// The overrides with everything refined that can be; nothing if there is nothing.
+/// The overrides with all accuracy settings refined; nothing if there are none.
 std::optional<Overrides> refined(const Overrides&);
 
 /// Overrides of all finest values, in the order of the axes; without those of `run` if `model_only`.

@@ -60,7 +60,7 @@ struct QuantityReference {
   double scale = 1;        ///< scale of relative errors [unit of the quantity]
   bool converged = false;  ///< the differences of refinements fall, or are rounding
   bool chaotic = false;    ///< value: mean of an ensemble, error: its standard error
-  bool constant = false;   ///< the same in every run and setting: it does not distinguish settings
+  bool constant = false;   ///< the same in every run and setting, so it does not distinguish settings
   double ratio = 0;        ///< by which differences fall per decade of tolerance; 0: they do not fall
   double order = 0;        ///< of the model's refinements, log2 of their ratio; 0: none, or not falling
   double spread = 0;       ///< chaotic: standard deviation of single runs [unit of the quantity]
@@ -81,7 +81,7 @@ struct Reference {
   std::vector<ReferenceLevel> levels;  ///< in the order run
   std::vector<QuantityReference> of;   ///< for each quantity
   std::string trouble;                 ///< why there is none; otherwise empty
-  double seconds = 0;                  ///< of the longest run at a tolerance
+  double seconds = 0;                  ///< of the longest run at a tolerance [s]
   bool short_of_time = false;          ///< it is incomplete for lack of time
 };
 
@@ -99,7 +99,7 @@ struct TradePoint {
   std::vector<double> warnings_of = {};  ///< relative: the reference's error, plus that of the ensemble
   std::vector<double> model = {};        ///< relative error of the model at tight tolerance; NaN: not separated
   double error = 0, warning = 0;         ///< of the worst quantity; no error below its uncertainty is claimed
-  double surer = 0;     ///< error of the same setting at a finer tolerance, if larger: a smaller one is by chance, and does not count
+  double surer = 0;     ///< error of the same setting at a finer tolerance, if larger: a smaller error is due to chance and does not count
   bool usable = false;  ///< finished, with a value for every quantity
   bool dominated = false, front = false;
   double counted() const { return error > surer ? error : surer; }
@@ -127,7 +127,7 @@ struct TradeReport {
   std::vector<std::size_t> front;                                  ///< by time
   std::optional<std::size_t> cheapest, best_in_time, recommended;  ///< only what the reference supports
   std::vector<std::string> said;                                   ///< the answers in words
-  double seconds = 0;                                              ///< spent
+  double seconds = 0;                                              ///< spent [s]
   bool stopped = false;                                            ///< by the user
   bool cut = false;                                                ///< by the budget: some settings were not run
   std::size_t ran() const;                                         ///< settings with a time and an error
@@ -150,15 +150,15 @@ struct TradeListener {
 TradeReport run_tradeoff(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, const TradeListener& = {});
 
 /// The reference of a plan. docs/studies.md describes its justification.
-/// @param seconds  available time; 0: unlimited
-/// @param most  available time while the reference is not accurate to a third of the requested error
+/// @param seconds  available time [s]; 0: unlimited
+/// @param most  available time [s] while the reference is not accurate to a third of the requested error
 Reference find_reference(const TradePlan&, const std::vector<Measure>&, const CaseRunner&, double seconds = 0, double most = 0);
 
 /// Derives dominance, the front and the answers, including their words, from points with times and errors.
 void answer(TradeReport&);
 /// Sets each point's `surer`: numerical errors and model errors that cancel at one tolerance do not at the next.
 void discount_luck(TradeReport&);
-/// Of usable points, by time: no other point is both faster and no less accurate, or as fast and more accurate. Marks them.
+/// The usable points, by time, for which no other is faster and at least as accurate, or as fast and more accurate. Marks them.
 std::vector<std::size_t> pareto_front(std::vector<TradePoint>&);
 /// Usable points that differ from this one in a single axis.
 std::vector<AxisEffect> neighbours(const TradeReport&, std::size_t point);

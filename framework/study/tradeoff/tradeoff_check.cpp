@@ -6,7 +6,7 @@ namespace pintle {
 
 namespace {
 
-/// Number of combinations that are read at most for a value that the reader rejects alone.
+/// Largest number of combinations read for a value that the reader rejects without other values.
 constexpr int most_tries = 400;
 
 Scene scene_with(const CaseSource& source, const Overrides& set) {
@@ -30,7 +30,7 @@ Overrides joined(Overrides set, const Overrides& more) {
   return set;
 }
 
-/// Is there a combination in which the reader accepts this value? Tried first with one value of one other axis, then of all.
+/// Whether the reader accepts this value in a combination: tries first one value of one other axis, then of all.
 bool taken_somewhere(const CaseSource& source, const TradePlan& plan, std::size_t axis, std::size_t value) {
   const Overrides& set = plan.axes[axis].values[value].set;
   int tries = 0;

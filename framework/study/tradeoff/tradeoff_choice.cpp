@@ -24,7 +24,7 @@ std::size_t knee(const std::vector<TradePoint>& points, const std::vector<std::s
   return best;
 }
 
-/// The error is lower by more than its uncertainty.
+/// Whether the error is lower by more than its uncertainty.
 bool lowers(const TradeReport& r, std::size_t point, const AxisEffect& e) {
   const TradePoint &p = r.points[point], &to = r.points[e.point];
   if (r.plan.axes[e.axis].ordered && e.to < p.at[e.axis]) return false;
@@ -158,7 +158,7 @@ std::vector<AxisEffect> free_coarsenings(const TradeReport& r, std::size_t point
 
 namespace {
 
-/// Errors below their uncertainty are equal: none of these settings is better because of a smaller uncertainty.
+/// Errors below their uncertainty count as equal: a smaller uncertainty makes none of these settings better.
 void level_warnings(std::vector<TradePoint>& points) {
   std::vector<double> warnings_of;
   for (const TradePoint& p : points)

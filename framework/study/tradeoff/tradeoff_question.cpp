@@ -12,7 +12,7 @@ namespace pintle {
 
 namespace {
 
-/// A study names a scene; a scene has bodies.
+/// Whether a file is a study, which names a scene, and not a scene, which has bodies.
 bool names_a_scene(const std::filesystem::path& file) {
   constexpr std::size_t most_bytes = std::size_t{100} << 20;
   const Yaml tree = parse_yaml(read_text_file(file, most_bytes), file.string());

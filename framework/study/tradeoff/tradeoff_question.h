@@ -8,11 +8,11 @@
 
 namespace pintle {
 
-/// What is asked for beside the file, as the user writes it; empty: what the file says.
+/// The user's requests that replace those of the file, as written; empty: as in the file.
 struct TradeWishes {
-  std::vector<std::string> quantities = {};  ///< instead of the measures of a study; a scene has none
+  std::vector<std::string> quantities = {};  ///< instead of a study's measures; required for a scene, which has none
   std::string error = {}, time = {}, budget = {};
-  int repeats = 0;            ///< 0: what the file says
+  int repeats = 0;            ///< 0: as in the file
   std::string dashes = "--";  ///< before the names of options in messages
 };
 
@@ -22,11 +22,11 @@ struct TradeQuestion {
   TradePlan plan;
 };
 
-/// Of a study, or of a scene with the quantities wanted.
+/// Reads a study, or a scene with the requested quantities.
 /// @throws SceneError  naming file, line, key, value and remedy
 TradeQuestion read_trade_question(const std::filesystem::path&, const TradeWishes&, const Overrides& set = {});
 
-/// Runs the settings; lack of memory in one is its reason.
+/// Runs the settings; lack of memory in one is reported as its reason.
 TradeReport run_tradeoff(const TradeQuestion&, const TradeListener& = {});
 
 }  // namespace pintle

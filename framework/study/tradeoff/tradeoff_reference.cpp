@@ -16,7 +16,7 @@ constexpr double loosest = 1e-4;    ///< start of a search with limited time
 constexpr int most_tolerances = 6, most_refinements = 5;
 constexpr const char* chaotic_model =
     "a finer model changes a single chaotic run at random, so the reference is the ensemble of the finest model of the study";
-constexpr std::size_t judged_tolerances = 5;  ///< the last so many tolerances
+constexpr std::size_t judged_tolerances = 5;  ///< number of the last tolerances that are compared
 
 using Clock = std::chrono::steady_clock;
 
@@ -24,7 +24,7 @@ bool whole(const Outcome& o, std::size_t n) {
   return o.status == "finished" && o.values.size() == n && std::ranges::all_of(o.values, [](double v) { return std::isfinite(v); });
 }
 
-/// Refines until every quantity has converged, or is known not to.
+/// Refines until every quantity has converged or is known not to converge.
 class Search {
  public:
   Search(const TradePlan& plan, const std::vector<Measure>& measures, const CaseRunner& run, double seconds, double most)
@@ -58,7 +58,7 @@ class Search {
 
  private:
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  /// An insufficient reference allows no recommendation: then it may take more time.
+  /// Whether there is time for more: without a sufficient reference there is no recommendation, so it may then take up to `most_`.
   bool may_spend(double more) {
     if (seconds_ <= 0 || spent() + more <= seconds_) return true;
     if (stands()) return false;
@@ -104,7 +104,7 @@ class Search {
   double wanted() const { return plan_.error > 0 ? plan_.error : 1e-4; }
   double target() const { return wanted() / 100; }
 
-  /// Is every quantity known to a third of the requested error, from the runs so far?
+  /// Whether the runs so far determine every quantity to a third of the requested error.
   bool stands() const { return out_.levels.size() > 2 && (tolerances_ == 0 ? settled(1.0 / 3) : stands_); }
 
   Ladder ladder(std::size_t q, std::size_t levels) const {
@@ -132,8 +132,8 @@ class Search {
     return std::clamp(t, 1e2 * tightest, 1e-6);
   }
 
-  /// Two decades below the study's finest. With limited time it starts from loose tolerances, so that expensive runs come last, and goes no
-  /// further than the requested error needs before the model, whose error may be larger, is refined.
+  /// Down to two decades below the study's finest. With limited time it starts from loose tolerances, so that expensive runs come last, and
+  /// goes no further than the requested error needs, to leave time for refining the model, whose error may be larger.
   void climb_tolerances() {
     const double finest = study_tolerance();
     const bool bounded = seconds_ > 0, model = refined(base_).has_value();

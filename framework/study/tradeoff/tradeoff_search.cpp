@@ -15,8 +15,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using At = std::vector<std::size_t>;
 
-// Shares of a budget: for the reference, and for it while it is insufficient; of the rest, the share after which no further setting is
-// started, and no run of an ensemble.
+// Shares of a budget: for the reference, and for a reference that is still insufficient; of the remaining time, the shares after which no
+// further setting and no further run of an ensemble is started.
 constexpr double for_reference = 0.4, for_want_of_it = 0.7, for_settings = 0.58, in_ensembles = 0.75;
 /// smaller relative differences are rounding
 constexpr double constant = 1e-12;
@@ -68,7 +68,7 @@ class Trade {
  private:
   std::vector<TradePoint>& points() { return out_.points; }
   double spent() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  /// A share of the time that the reference has left.
+  /// A share of the time left for the reference.
   double left(double share = 1) const { return out_.plan.budget > 0 ? begun_ + share * (out_.plan.budget - begun_) - spent() : INFINITY; }
   static double share(std::size_t i, std::size_t n) { return static_cast<double>(i) / static_cast<double>(n); }
   void tell(const std::string& what, double done) const {
@@ -226,7 +226,7 @@ class Trade {
     double time, error;
   };
 
-  /// Estimate from the effect of each group alone with all others finest: times multiply, the worst error remains.
+  /// Estimate from the effect of each single group with all others finest: time factors multiply, the largest error remains.
   Guess guess(const At& at) const {
     const TradePoint& finest = out_.points[index(finest_at())];
     const double centre = finest.usable ? finest.time : 0;
@@ -252,12 +252,12 @@ class Trade {
     visit(index(finest_at()), 2 * each);
     std::vector<bool> seen(points().size(), false);
     seen[0] = seen[index(finest_at())] = true;
-    // First the effect of each axis alone, all numerical ones together, ...
+    // First the effect of each single axis, all numerical ones together, ...
     std::vector<std::size_t> stars;
     for (std::size_t i = 1; i < points().size(); ++i)
       for (const auto& group : groups())
         if (star(points()[i].at, group) == i && !seen[i]) stars.push_back(i), seen[i] = true;
-    // ... in an order that is spread over them for any budget, ...
+    // ... in an order that covers them evenly for any budget, ...
     std::ranges::sort(stars, {}, [](std::size_t i) { return std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0); });
     for (const std::size_t i : stars) {
       if (left(for_settings) <= 0 || out_.stopped) break;

@@ -20,13 +20,13 @@ std::string times_text(double factor) {
   return factor > 1 ? printed("%.2g times the time", factor) : printed("%.2g of the time", factor);
 }
 
-/// Adds one full stop, whatever the message ends with.
+/// Ends the message with exactly one full stop.
 std::string stopped(std::string s) {
   while (!s.empty() && (s.back() == '.' || s.back() == ' ')) s.pop_back();
   return s + ".";
 }
 
-/// Is the reference accurate enough to compare settings with it?
+/// Whether the reference is accurate enough to compare settings with it.
 bool known(const TradeReport& r) { return r.warning() <= (r.plan.error > 0 ? r.plan.error : useful_warning); }
 
 void say_stopped(const TradeReport& r, std::vector<std::string>& said) {
@@ -93,7 +93,7 @@ std::string step_text(const TradeReport& r, std::size_t point, const AxisEffect&
   return "from " + axis.values[r.points[point].at[e.axis]].label + " to " + axis.values[e.to].label;
 }
 
-/// Is there a setting that differs only in this axis and has not been run?
+/// Whether there is a setting that differs only in this axis and has not been run.
 bool waits(const TradeReport& r, std::size_t point, std::size_t axis) {
   return std::ranges::any_of(r.points, [&](const TradePoint& p) {
     if (p.at.size() != r.points[point].at.size() || (p.status != "not run" && p.status != "over its limit")) return false;
@@ -103,7 +103,7 @@ bool waits(const TradeReport& r, std::size_t point, std::size_t axis) {
   });
 }
 
-/// Effect of each axis alone on the recommended setting, towards finer and coarser.
+/// Effect of each single axis on the recommended setting, towards finer and coarser values.
 void say_bottleneck(const TradeReport& r, std::vector<std::string>& said) {
   const std::size_t at = *r.recommended;
   const TradePoint& p = r.points[at];
@@ -168,7 +168,7 @@ void say_luck(const TradeReport& r, std::vector<std::string>& said) {
                  percent_text(most->surer) + ".");
 }
 
-/// What the finest setting spends without benefit.
+/// The time that the finest setting uses without benefit.
 void say_free(const TradeReport& r, std::vector<std::string>& said) {
   for (std::size_t i = 0; i < r.points.size(); ++i) {
     bool finest = r.points[i].usable && !r.points[i].at.empty() && r.recommended != i;
@@ -204,7 +204,7 @@ void say_models(const TradeReport& r, std::vector<std::string>& said) {
   }
 }
 
-/// Were enough settings with this value run to conclude that none of them is worth its time? Three quarters, and at least two.
+/// Whether enough settings with this value were run to conclude that none is worth its time: three quarters, and at least two.
 bool tried(const TradeReport& r, std::size_t axis, std::size_t value) {
   std::size_t all = 0, ran = 0, judged = 0;
   for (const TradePoint& p : r.points)
