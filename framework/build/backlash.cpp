@@ -52,7 +52,7 @@ BuiltContact build_flanks(const Scene& scene, const SceneJoint& j, const Joint& 
   pair.a = ends.marker[0], pair.b = ends.marker[1];
   pair.pairs = 2;
   pair.flank = flank;
-  BuiltContact out{{pair, pair}, laws_text(pair) + "; teeth with a backlash of " + number_text(1e3 * play.backlash) + " mm", ""};
+  BuiltContact out{{pair, pair}, laws_text(pair) + "; teeth with a backlash of " + number_text(1e3 * play.backlash) + " mm"};
   out.pairs[1].pair = 1;
   out.pairs[1].flank->side = -1;
   return out;

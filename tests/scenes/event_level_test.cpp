@@ -53,7 +53,7 @@ TEST_P(Level, OfTwoThatSetBackWhatTheyWaitForEndsByName) {
 }
 TEST_P(Level, WhereAStateIsSetToNoNumberEndsByName) {
   const Whole w = run(pushed("jump: {when: b.vx > 1 m/s, do: {set: {F: 1/(F - 2)}}}"), GetParam());
-  expect_failed(w, {"t = 0.5 s", "\"jump\" sets F", "not a finite number"});
+  expect_failed(w, {"t = 0.5 s", "\"jump\" sets F", "not finite"});
 }
 TEST_P(Level, OfTwoWithAHysteresisGoesOn) {
   const Whole w =

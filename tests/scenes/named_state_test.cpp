@@ -202,8 +202,8 @@ TEST(NamedStates, AWrongUnitIsFoundWhereItStands) {
   expect_one_line(refusal("{pid: other - cart.x, " + gains + ", limits: [-9 N, 9 N], start: 1 N m}"), u + ".limits", {"expected a torque"});
   expect_one_line(refusal("{pid: other - cart.angle, " + gains + "}"),
                   u + ".pid: ", {"\"other - cart.angle\"", "- mixes a length [m] and an angle"});
-  expect_one_line(refusal("{pid: other - cart.ax, " + gains + "}"), u + ".pid: ", {"cart.ax follows from the accelerations"});
-  expect_one_line(refusal("{lag: cart.ax, time: 1 s}"), u + ".lag: ", {"cart.ax follows from the accelerations"});
+  expect_one_line(refusal("{pid: other - cart.ax, " + gains + "}"), u + ".pid: ", {"cart.ax depends on the accelerations"});
+  expect_one_line(refusal("{lag: cart.ax, time: 1 s}"), u + ".lag: ", {"cart.ax depends on the accelerations"});
   expect_one_line(refusal("{lag: cart.x + 1 N, time: 1 s}"), u + ".lag: ", {"\"cart.x + 1 N\"", "+ mixes a length [m] and a force [N]"});
   expect_one_line(refusal("{lag: cart.x, time: 1 s, start: 2 N}"), u + ".start: ", {"a force [N]; expected a length [m]"});
   expect_one_line(refusal("{rate limit: cart.x + 1 N, time: 1 s, most: 1 N/s}"), u + ".rate limit: ", {"+ mixes"});

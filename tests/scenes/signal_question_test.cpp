@@ -129,7 +129,7 @@ TEST(BadSignals, AreRefusedWithPlaceAndRemedy) {
   expect_one_line(refusal_of_force("1 N m*arm.tp.vx"), place, {"\"arm.tp.vx\"", "arm.tip.vx"});
   expect_one_line(refusal_of_force("2 N*arm.speed"), place, {"expected a torque or energy [N*m]"});
   expect_one_line(refusal_of_force("1 N m + arm.angle"), place, {"+ mixes", "an angle [rad]"});
-  expect_one_line(refusal_of_force("1 m*pivot.fx"), place, {"pivot.fx follows from the accelerations", "only outputs"});
+  expect_one_line(refusal_of_force("1 m*pivot.fx"), place, {"pivot.fx depends on the accelerations", "only outputs"});
   expect_one_line(refusal_of_force("1 N m s^2*arm.alpha"), place, {"arm.alpha", "algebraic feedback"});
   expect_one_line(refusal_of_force("integrl*1 N m/s"), place, {"\"integrl\" is neither", "Did you mean \"integral\"?"});
   expect_one_line(refusal_of_force("saturate(1 N m*arm.angle, 2 N m, 1 N m)"), place, {"lo below hi"});
