@@ -104,8 +104,7 @@ TEST(Power, MayStandInAConditionButInNoForce) {
   ASSERT_EQ(w.run.happenings.size(), 1U);
   EXPECT_NEAR(w.run.happenings[0].t, 0.5, 1e-8);
   const auto refusal = [](const std::string& text) { return pintle_test::refusal_by([&] { build(read_scene_text(text, "scene.yaml")); }); };
-  pintle_test::expect_says(refusal(motor + ", other: {torque: motor.power*1 s, on: arm}}\n"),
-                           {"motor.power depends on the accelerations"});
+  pintle_test::expect_says(refusal(motor + ", other: {torque: motor.power*1 s, on: arm}}\n"), {"motor.power depends on the accelerations"});
   pintle_test::expect_says(refusal(motor + "}\noutputs: {p: pin.power}\n"), {"pin.power is 0 at all times", "driver, force or spring"});
 }
 
