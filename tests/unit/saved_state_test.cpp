@@ -240,7 +240,8 @@ TEST(SavedState, RefusesAnotherLawOfSignalsMadeInCpp) {
   const auto pushed = [](const SignalFunction& law) {
     Scene s = swinging();
     s.loads = {
-        torque("push", "bob", {.text = "made in C++", .constant = false, .of_signals = law, .signals = {"bob.speed"}, .uses_time = true})};
+        torque("push", "bob",
+               {.at = {}, .text = "made in C++", .constant = false, .of_signals = law, .signals = {"bob.speed"}, .uses_time = true})};
     return Ran(s);
   };
   const auto brake = [](double early, double slow) {
