@@ -16,6 +16,7 @@
 #include "framework/output/run_files.h"
 #include "framework/scene/error.h"
 #include "framework/scene/yaml/reader.h"
+#include "tests/refusal.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes::cylinder_contact_test {
@@ -254,6 +255,29 @@ TEST(CylinderContact, RefusesWhatCannotBe) {
   Scene tight = flying(cylinders("pereira"));
   tight.joints[0].clearance->radial = 1e-6;
   refused([&] { return tight; }, "5e-06 to 0.01 m, not for 1e-06 m");
+}
+
+// What a contact of these profiles may miss; a round block fits where the pit is narrower than its sides alone.
+TEST(ContactOfProfiles, AHollowTooNarrowAndTwoSharpCornersAreWarnedOf) {
+  const auto warned = [](const std::string& under, const std::string& edge) {
+    std::string all;
+    for (const std::string& w :
+         build(read_scene_text("ground: {points: {G: [0, 0]}, profiles: {pit: {" + under +
+                                   "}}}\nbodies: {block: {rigid: {mass: 1, inertia: 1e-3}, profiles: {edge: {" + edge +
+                                   "}}, pose: {at: [0, 0.2]}}}\ncontacts: {c: {between: [block.edge, ground.pit], normal: "
+                                   "{exact: {restitution: 0.5, stiffness: 1e8}}}}\nrun: {until: 1e-3}\n",
+                               "scene"))
+             .warnings)
+      all += w;
+    return all;
+  };
+  const std::string pit = "spline: [[-0.1, 0.05], [-0.05, 0.05], [-0.02, 0], [0, -0.02], [0.02, 0], [0.05, 0.05], [0.1, 0.05]]";
+  const std::string stairs = "path: [[1, 0], [0, 0], [0, 0.1], [-1, 0.1]]";
+  const std::string box = "path: [[-0.05, -0.05], [0.05, -0.05], [0.05, 0.05], [-0.05, 0.05]], closed: true";
+  pintle_test::expect_says(warned(pit, "disc: [0, 0], radius: 60 mm"), {"too narrow", "touch both sides"});
+  EXPECT_EQ(warned(pit, "disc: [0, 0], radius: 5 mm").find("too narrow"), std::string::npos);
+  pintle_test::expect_says(warned(stairs, box), {"both profiles have sharp corners", "round"});
+  EXPECT_EQ(warned(stairs, box + ", round: 5 mm").find("sharp corners"), std::string::npos);
 }
 
 }  // namespace

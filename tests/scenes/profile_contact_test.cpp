@@ -32,27 +32,6 @@ std::string ball(const std::string& law, double height = 0.1, const std::string&
          ", vx: 0.3}}\nrun: {until: " + std::to_string(until) + " s, tolerance: 1e-9}\noutput: {every: 1 ms}\n";
 }
 
-// What a contact of these profiles may miss; a round block fits where the pit is narrower than its sides alone.
-TEST(ProfileContact, AHollowTooNarrowAndTwoSharpCornersAreWarnedOf) {
-  const auto warned = [](const std::string& under, const std::string& edge) {
-    std::string all;
-    for (const std::string& w : build(scene("ground: {points: {G: [0, 0]}, profiles: {pit: {" + under +
-                                            "}}}\nbodies: {block: {rigid: {mass: 1, inertia: 1e-3}, profiles: {edge: {" + edge +
-                                            "}}, pose: {at: [0, 0.2]}}}\ncontacts: {c: {between: [block.edge, ground.pit], normal: "
-                                            "{exact: {restitution: 0.5, stiffness: 1e8}}}}\nrun: {until: 1e-3}\n"))
-                                    .warnings)
-      all += w;
-    return all;
-  };
-  const std::string pit = "spline: [[-0.1, 0.05], [-0.05, 0.05], [-0.02, 0], [0, -0.02], [0.02, 0], [0.05, 0.05], [0.1, 0.05]]";
-  const std::string stairs = "path: [[1, 0], [0, 0], [0, 0.1], [-1, 0.1]]";
-  const std::string box = "path: [[-0.05, -0.05], [0.05, -0.05], [0.05, 0.05], [-0.05, 0.05]], closed: true";
-  pintle_test::expect_says(warned(pit, "disc: [0, 0], radius: 60 mm"), {"too narrow", "touch both sides"});
-  EXPECT_EQ(warned(pit, "disc: [0, 0], radius: 5 mm").find("too narrow"), std::string::npos);
-  pintle_test::expect_says(warned(stairs, box), {"both profiles have sharp corners", "round"});
-  EXPECT_EQ(warned(stairs, box + ", round: 5 mm").find("sharp corners"), std::string::npos);
-}
-
 TEST(ProfileContact, ABallBouncesWithTheRestitutionAskedFor) {
   const Whole w = run(ball("exact: {restitution: 0.8, stiffness: 1e9}"));
   expect_sound(w);
