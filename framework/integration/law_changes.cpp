@@ -8,20 +8,25 @@ namespace pintle {
 
 namespace {
 
+/// A time that rounding alone separates from t counts as passed: what ends a step may be located one digit before it.
+double just_after(double t) {
+  constexpr double roundings = 1e-15;
+  return t + roundings * std::abs(t);
+}
+
 /// End of the next step for a law with these bends, for a method that evaluates it only at the ends of its steps.
 double end_within_bend(const std::vector<LawBend>& bends, double t) {
   constexpr double steps = 6, rest = 0.01;  // a remainder shorter than this part is not a separate step
-  const auto bend = std::upper_bound(bends.begin(), bends.end(), t, [](double x, const LawBend& b) { return x < b.end; });
+  const double after = just_after(t);
+  const auto bend = std::upper_bound(bends.begin(), bends.end(), after, [](double x, const LawBend& b) { return x < b.end; });
   if (bend == bends.end()) return std::numeric_limits<double>::infinity();
-  if (t < bend->begin) return bend->begin;
+  if (after < bend->begin) return bend->begin;
   const double longest = (bend->end - bend->begin) / steps;
   return t + (1 + rest) * longest < bend->end ? t + longest : bend->end;
 }
 
-// The first change that is ahead by more than rounding: an event at the previous one may have been located a last digit before it.
 auto next_change(const Scheme& scheme, double t) {
-  constexpr double roundings = 1e-15;
-  return std::upper_bound(scheme.changes.begin(), scheme.changes.end(), t + roundings * std::abs(t),
+  return std::upper_bound(scheme.changes.begin(), scheme.changes.end(), just_after(t),
                           [](double x, const LawChange& c) { return x < c.before; });
 }
 

@@ -79,6 +79,13 @@ TEST(StepControl, AStepIsKeptWhereAnotherIsNotWorthAFactorization) {
   }
 }
 
+// A step of one digit would be too small for any tolerance.
+TEST(LawChanges, ABendThatBeginsOneDigitAheadHasBegun) {
+  Scheme scheme;
+  scheme.bends = {{{0, 9}, {9, 18}}};
+  for (const double t : {std::nextafter(9, 0), 9.0, std::nextafter(9, 10)}) EXPECT_NEAR(law_end(scheme, t, true), 10.5, 1e-12) << t - 9;
+}
+
 TEST(LawChanges, AStepEndsBeforeTheNextChangeAndPassesOneWholePieceAtMost) {
   Scheme scheme;
   EXPECT_EQ(law_end(scheme, 0), infinite);
