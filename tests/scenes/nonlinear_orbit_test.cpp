@@ -212,6 +212,24 @@ struct Linear {
 };
 
 // Linear, so that the multipliers are exp(lambda T): a pair for c about 0, one of +1 for a about 0.
+// The real part of the pair goes on as the multiplier that crosses.
+TEST(PeriodicOrbits, LoseTheirStabilityByRealMultipliersThatWereAPair) {
+  const auto at = [](double x, std::vector<double> re, std::vector<double> im) {
+    FollowedValue value;
+    value.x = x;
+    value.orbit.cycle.point = {0}, value.orbit.cycle.re = std::move(re), value.orbit.cycle.im = std::move(im);
+    value.orbit.cycle.continued = 1;
+    return value;
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    const std::vector<LossOfStability> losses =
+        losses_of_stability({at(2, {0.2 * sign, 0.2 * sign}, {0.5, -0.5}), at(3, {1.2 * sign, 0.3 * sign}, {0, 0})});
+    ASSERT_EQ(losses.size(), 1u);
+    EXPECT_EQ(losses[0].through, sign < 0 ? Crossing::minus_one : Crossing::plus_one);
+    EXPECT_NEAR(losses[0].x, 2.8, 1e-14);
+  }
+}
+
 TEST(PeriodicOrbits, TellThroughWhatTheirMultipliersLeave) {
   const std::string head =
       "parameters: {a: -0.02}\nbodies: {plate: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}\njoints: {held: {weld: [ground, plate]}}\n";

@@ -21,17 +21,22 @@ std::size_t real_outside(const Cycle& cycle, double sign) {
   return n;
 }
 
-/// The signed distance of the multiplier nearest to its crossing: of real ones from 1 or -1, of pairs from the unit circle.
+/// The signed distance of the multiplier nearest to its crossing: of real ones from 1 or -1, of pairs from the unit circle. Real ones may
+/// come from a pair; if only pairs are there, it is that of their real parts.
 double nearest(const Cycle& cycle, Crossing through) {
-  std::optional<double> out;
-  for (std::size_t j = 0; j < cycle.re.size(); ++j) {
-    if ((cycle.im[j] != 0) != (through == Crossing::pair)) continue;
-    const double off = through == Crossing::pair       ? cycle.modulus(j) - 1
-                       : through == Crossing::plus_one ? cycle.re[j] - 1
-                                                       : -cycle.re[j] - 1;
-    if (!out || std::abs(off) < std::abs(*out)) out = off;
-  }
-  return out.value_or(0);
+  const auto among = [&](bool pairs) {
+    std::optional<double> out;
+    for (std::size_t j = 0; j < cycle.re.size(); ++j) {
+      if ((cycle.im[j] != 0) != pairs) continue;
+      const double off = through == Crossing::pair       ? cycle.modulus(j) - 1
+                         : through == Crossing::plus_one ? cycle.re[j] - 1
+                                                         : -cycle.re[j] - 1;
+      if (!out || std::abs(off) < std::abs(*out)) out = off;
+    }
+    return out;
+  };
+  const std::optional<double> found = among(through == Crossing::pair);
+  return found ? *found : among(through != Crossing::pair).value_or(0);
 }
 
 /// A change in the number of real multipliers beyond -1 or beyond 1; otherwise a pair has crossed.
