@@ -144,11 +144,11 @@ std::string without_units(std::string heading) {
 /// @throws SceneError  the parameter or something recorded is called like another column of a table
 void require_other_names(const Nonlinear& study, const Node& root) {
   std::vector<std::pair<std::string, Node>> given;
-  if (study.varies()) given.emplace_back(study.sweep.cases.names[0], root.at("over"));
   if (study.question.section) {
     const Node record = root.at("section").at("record");
     for (const Recorded& one : study.question.section->record) given.emplace_back(one.name, record.is_map() ? record.at(one.name) : record);
   }
+  if (study.varies()) given.emplace_back(study.sweep.cases.names[0], root.at("over"));  // last: it cannot be renamed here
   for (const std::vector<std::string>& table : headings_of_tables(study))
     for (const auto& [name, node] : given)
       if (std::ranges::count(table, without_units(name), without_units) > 1) node.fail(quoted(name) + " " + taken_name);

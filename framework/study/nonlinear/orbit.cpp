@@ -99,10 +99,10 @@ ImpactFigures figures(const std::vector<Impact>& all, double from, double to) {
   return out;
 }
 
-/// Whether a rigid contact has closed after a time, and stayed closed.
-bool came_to_rest(const System& system, const std::vector<Impact>& all, double from) {
+/// Whether a rigid contact has been closed after a time, for longer than an impact.
+bool has_rested(const System& system, const std::vector<Impact>& all, double from) {
   return std::ranges::any_of(all, [&](const Impact& impact) {
-    return is_rigid(system.contacts[static_cast<std::size_t>(impact.contact)]) && impact.begin > from && !(impact.end <= impact.begin);
+    return is_rigid(system.contacts[static_cast<std::size_t>(impact.contact)]) && !(impact.end <= std::max(impact.begin, from));
   });
 }
 
@@ -271,10 +271,11 @@ class Following {
                           .distance = question_.lyapunov->distance};
     neighbours_begin_ = integrator.state().t;
     lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
-    if (came_to_rest(model_.system, integrator.impacts(), *neighbours_begin_))
+    if (has_rested(model_.system, integrator.impacts(), *neighbours_begin_))
       out_.reason =
-          "a contact came to rest, where deviations vanish: exponents are -infinity, and their finite values show only the effect of "
-          "rounding";
+          "a rigid contact stayed closed for a time, where deviations across it vanish: exponents are -infinity, and their finite values "
+          "show "
+          "only the effect of rounding";
   }
 
   const OrbitQuestion& question_;
