@@ -268,7 +268,7 @@ std::vector<Harm> harms() {
       {text([](const std::string& whole) { return whole + "1,2\n"; }), torn},
       {[](const fs::path& file) { fs::copy_file(file.parent_path() / "case-4.csv", file, fs::copy_options::overwrite_existing); }, torn},
       {[](const fs::path& file) { fs::remove(file); }, "is missing"},
-      {[](const fs::path& file) { fs::remove(file), fs::create_directory(file); }, "is a directory"}};
+      {[](const fs::path& file) { fs::remove(file), fs::create_directory(file); }, "is not an ordinary file"}};
 }
 
 TEST(SweepPart, ACurveThatIsNotAsItsCaseWroteItIsRefused) {
@@ -289,8 +289,15 @@ TEST(SweepPart, ACaseWhoseCurveIsLostIsRunAgain) {
     const fs::path file = parts[0] / "curves/case-1.csv";
     const std::string whole = contents(file);
     each.harm(file);
-    if (fs::is_directory(file)) fs::remove(file);
     sweep.part = SweepPart{1, 2};
+    if (fs::is_directory(file)) {
+      pintle_test::expect_refused(
+          [&] {
+            run_sweep(sweep, parts[0], {1, nullptr, {}});
+          },
+          {"case-1.csv: is not an ordinary file; remove it"});
+      fs::remove(file);
+    }
     const SweepEnd end = run_sweep(sweep, parts[0], {1, nullptr, {}});
     EXPECT_EQ(end.count.done, 1u);
     ASSERT_EQ(end.notes.size(), 1u);
@@ -298,6 +305,46 @@ TEST(SweepPart, ACaseWhoseCurveIsLostIsRunAgain) {
     EXPECT_EQ(contents(file), whole);
     EXPECT_EQ(refusal_of(parts), "accepted");
   }
+}
+
+// Whatever has become of the tables, they are written again from the journal.
+TEST(SweepPart, TablesAreThoseOfTheJournalAgain) {
+  const SweepFolder folder;
+  Sweep sweep = sweep_in(folder, grid);
+  const fs::path out = parts_in(folder, sweep, 2)[0];
+  sweep.part = SweepPart{1, 2};
+  for (const std::string file : {"sweep-part.csv", "timings.csv", "sweep.json"}) {
+    const std::string whole = contents(out / file);
+    std::ofstream(out / file, std::ios::binary) << "";
+    EXPECT_EQ(run_sweep(sweep, out, {1, nullptr, {}}).count.done, 0u);
+    const std::string again = contents(out / file);
+    EXPECT_TRUE(file == "sweep.json" ? !again.empty() : again == whole) << file;  // its session has run no case
+  }
+}
+
+TEST(SweepPart, AJournalOfAnotherPartIsRefusedByTheSweepToo) {
+  for (const bool whole : {true, false}) {
+    const SweepFolder folder;
+    Sweep sweep = sweep_in(folder, grid);
+    const std::vector<fs::path> parts = parts_in(folder, sweep, 2);
+    const std::string first = contents(parts[0] / "journal-0.txt"), second = contents(parts[1] / "journal-0.txt");
+    const std::size_t line = first.find('\n') + 1;
+    std::ofstream(parts[1] / "journal-0.txt", std::ios::binary)
+        << (whole ? first : second + first.substr(line, first.find('\n', line) + 1 - line));
+    sweep.part = SweepPart{2, 2};
+    pintle_test::expect_refused(
+        [&] {
+          run_sweep(sweep, parts[1], {1, nullptr, {}});
+        },
+        {whole ? "are not of the same part" : "holds case 1, which does not belong to part 2 of 2", "emove the folder"});
+  }
+}
+
+TEST(SweepPart, APartThatHasLostItsJournalIsRefused) {
+  const SweepFolder folder;
+  const std::vector<fs::path> parts = parts_in(folder, sweep_in(folder, grid), 2);
+  fs::remove(parts[1] / "journal-0.txt");
+  pintle_test::expect_says(refusal_of(parts), {"lacks its journal-0.txt", "remove it and run the part again: pintle sweep"});
 }
 
 TEST(SweepPart, ACaseThatFailsAtItsStartHasACurveWithoutRows) {

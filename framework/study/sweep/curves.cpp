@@ -11,16 +11,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// @throws SceneError  something else has its name
+void require_place(const fs::path& path, fs::file_type type, const char* what) {
+  std::error_code error;
+  const fs::file_status there = fs::status(path, error);
+  if (fs::exists(there) && there.type() != type)
+    throw SceneError(path.string() + ": is not " + what + "; remove it, and start the same command again");
+}
+
 std::string name_begin(std::size_t number) { return "case-" + std::to_string(number); }
 
 }  // namespace
 
 fs::path curves_in(const fs::path& folder) { return folder / "curves"; }
 
+void make_curves_folder(const fs::path& folder) {
+  require_place(curves_in(folder), fs::file_type::directory, "a folder");
+  fs::create_directories(curves_in(folder));
+}
+
 void write_curves(const std::map<std::string, std::string>& curves, const fs::path& folder, Row& row) {
   FileNames names;
   for (const auto& [situation, text] : curves) {
     const std::string name = names.add(name_begin(row.number) + (situation.empty() ? "" : "-" + situation), "") + ".csv";
+    require_place(curves_in(folder) / name, fs::file_type::regular, "an ordinary file");
     write_text(curves_in(folder) / name, text);
     row.curves[name] = fingerprint_text(fingerprint(text));
   }
@@ -30,7 +44,8 @@ std::string read_curve(const fs::path& folder, const std::pair<const std::string
   constexpr std::size_t most_bytes = std::size_t{1} << 30;
   const fs::path path = curves_in(folder) / noted.first;
   std::error_code error;
-  if (!fs::exists(path, error) && !error) throw FileRefused("is missing");
+  if (!fs::exists(path, error)) throw FileRefused("is missing");
+  if (!fs::is_regular_file(path, error)) throw FileRefused("is not an ordinary file");
   std::string text = read_file(path, most_bytes);
   if (fingerprint_text(fingerprint(text)) != noted.second) throw FileRefused("is not as its case wrote it: it was cut off or changed");
   return text;

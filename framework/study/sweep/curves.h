@@ -12,8 +12,11 @@ namespace pintle {
 
 std::filesystem::path curves_in(const std::filesystem::path& folder);
 
+/// @throws SceneError  something else has its name
+void make_curves_folder(const std::filesystem::path& folder);
+
 /// Writes the curves of a case and records them in its row.
-/// @param curves  per situation, "" if there is none   @throws FileError
+/// @param curves  per situation, "" if there is none   @throws FileError   @throws SceneError  something else has the name of one
 void write_curves(const std::map<std::string, std::string>& curves, const std::filesystem::path& folder, Row&);
 
 /// The text of a curve, unchanged since its case wrote it.

@@ -126,6 +126,12 @@ void read_rows(Found& part, std::vector<std::string>& notes) {
   if (!journals_are_free(part.folder, {}, 0))
     throw std::runtime_error(part.folder.string() + ": a process still works on " + part_text(part.file.part) +
                              "; merge when all parts have ended");
+  if (!fs::exists(journal_path(part.folder, 0)))
+    throw SceneError(
+        part.folder.string(), {},
+        "lacks its journal-0.txt, which records what was done; copy the folder again with all that is in it, or remove it and run "
+        "the part again: " +
+            command_for(part) + and_set);
   try {
     const std::string again = "remove " + shell_word(part.folder.string()) + " and run the part again: " + command_for(part) + and_set;
     part.rows = read_journals(part.folder, part.file.print, part.file.cases, &notes, again);

@@ -83,7 +83,14 @@ std::unique_ptr<Journal> open_study_folder(const Sweep& sweep, const fs::path& f
   try {
     journal = std::make_unique<Journal>(own, sweep.journal_print(), &notes);
   } catch (const OtherStudy&) {
-    if (const std::string share = other_share(sweep, folder); !share.empty())
+    const std::string share = other_share(sweep, folder);
+    if (sweep.part && share.starts_with(part_text(*sweep.part)))
+      throw SceneError(
+          folder.string(), {},
+          "its journal-0.txt and its part.json are not of the same part; one of them was changed or copied. Remove the folder and "
+          "run " +
+              part_text(*sweep.part) + " again");
+    if (!share.empty())
       throw SceneError(folder.string(), {},
                        "holds " + share + ", not " + (sweep.part ? part_text(*sweep.part) : "all cases") +
                            "; name another directory with --out, or leave --out out");

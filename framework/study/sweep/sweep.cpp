@@ -238,11 +238,10 @@ void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& en
     return;
   }
   fs::remove(folder / "sweep-so-far.csv", ignored);
-  const fs::path table = folder / table_name(sweep);
-  if (end.count.done == 0 && fs::exists(table)) return;
+  write_synced(folder / table_name(sweep), sweep_csv(sweep, end.rows));
   write_synced(folder / "timings.csv", timings_csv(end.rows));
-  write_synced(folder / "sweep.json", sweep_json(sweep, end));
-  write_synced(table, sweep_csv(sweep, end.rows));
+  const fs::path of_session = folder / "sweep.json";  // of the last one that ran a case
+  if (end.count.done > 0 || !fs::exists(of_session) || fs::is_empty(of_session)) write_synced(of_session, sweep_json(sweep, end));
 }
 
 }  // namespace
@@ -272,6 +271,10 @@ SweepEnd run_sweep(const Sweep& sweep, const fs::path& folder, const SweepSettin
     journal = open_study_folder(sweep, folder, end.notes);
     std::vector<bool> ended(sweep.cases.size() + 1, false);
     for (const Row& row : read_journals(folder, sweep.journal_print(), sweep.cases.size(), &end.notes)) {
+      if (!sweep.has(row.number))
+        throw SceneError(folder.string(), {},
+                         "its journal holds case " + std::to_string(row.number) + ", which does not belong to " + part_text(*sweep.part) +
+                             "; remove the folder and run the part again");
       const std::string fault = fault_of_curves(folder, row);
       if (!fault.empty()) end.notes.push_back(fault + "; its case is run again");
       ended[row.number] = fault.empty() && !lacked_memory(row);

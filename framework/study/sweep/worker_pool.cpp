@@ -15,7 +15,7 @@ std::string shortage_of_threads(std::size_t started, int asked, const char* why)
 
 WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesystem::path& folder, int rank, int threads)
     : sweep_(sweep), journal_(journal), folder_(folder), rank_(rank) {
-  if (!sweep.keep.empty()) std::filesystem::create_directories(curves_in(folder_));
+  if (!sweep.keep.empty()) make_curves_folder(folder_);
   try {
     start(threads);
   } catch (const std::exception& error) {
