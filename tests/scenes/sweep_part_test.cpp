@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -279,6 +280,23 @@ TEST(SweepPart, ACurveThatIsNotAsItsCaseWroteItIsRefused) {
     each.harm(parts[0] / "curves/case-1.csv");
     pintle_test::expect_says(refusal_of(parts), {"curves/case-1.csv", each.says, "continue the part", "--shard 1/2"});
   }
+}
+
+// As an earlier build wrote it, which did not note curves.
+TEST(SweepPart, AJournalThatNamesNoCurvesIsRefused) {
+  const SweepFolder folder;
+  const std::vector<fs::path> parts = parts_in(folder, sweep_in(folder, grid + "keep: [angle of rod]\n"), 2);
+  std::istringstream lines(contents(parts[0] / "journal-0.txt"));
+  std::string text, line;
+  for (bool heading = true; std::getline(lines, line); heading = false)
+    if (std::optional<Row> row = heading ? std::nullopt : row_of(line)) {
+      row->curves.clear();
+      text += line_of(*row);
+    } else {
+      text += line + "\n";
+    }
+  std::ofstream(parts[0] / "journal-0.txt", std::ios::binary) << text;
+  pintle_test::expect_says(refusal_of(parts), {"its journal names no curve of case 1", "run the part again: pintle sweep"});
 }
 
 TEST(SweepPart, ACaseWhoseCurveIsLostIsRunAgain) {

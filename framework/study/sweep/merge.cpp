@@ -167,13 +167,19 @@ void read_study_of(const Found& part, Merged& merged) {
 }
 
 /// @throws SceneError  a curve is missing or changed
-void validate_curves(const Found& part) {
-  for (const Row& row : part.rows)
+void validate_curves(const Found& part, bool keeps) {
+  for (const Row& row : part.rows) {
+    if (keeps && row.curves.empty() && row.status == status_text(Status::finished))
+      throw SceneError(part.folder.string(), {},
+                       "its journal names no curve of case " + std::to_string(row.number) +
+                           ", which the study keeps: another build of pintle wrote it; remove the folder and run the part again: " +
+                           command_for(part) + and_set);
     if (const std::string fault = fault_of_curves(part.folder, row); !fault.empty())
       throw SceneError(
           fault + "; copy the folder of " + part_text(part.file.part) +
           " again with all its contents, or remove that file, if it exists, and continue the part, which runs its case again: " +
           command_for(part) + and_set);
+  }
 }
 
 /// @throws SceneError  naming all parts that lack cases
@@ -224,7 +230,7 @@ Merged read_parts(const std::vector<fs::path>& folders) {
   read_study_of(parts.front(), out);
   std::size_t processes = 0;
   for (Found& p : parts) {
-    validate_curves(p);
+    validate_curves(p, out.keeps_curves);
     processes += shift_workers(p.rows, processes);
     out.end.rows.insert(out.end.rows.end(), p.rows.begin(), p.rows.end());
     out.folders.push_back(p.folder);
