@@ -1,11 +1,14 @@
 #include "framework/study/study.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "framework/common/file_names.h"
 #include "framework/scene/text_file.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
+#include "framework/study/measures/measure_words.h"
 
 namespace pintle {
 
@@ -130,18 +133,39 @@ void require_other_names(const std::vector<Measure>& measures, const std::vector
   for (const Measure& m : measures) require_other_name(m.name, columns, m.file, m.place);
 }
 
+namespace {
+
+/// A curve is a whole time history, so its words have no statistic and no time.
+void require_history(const Node& entry, const Measure& curve, const std::string& words, const Scene& scene) {
+  const std::string remedy = "; each case keeps the whole history: leave it out, or ask for it under measure";
+  std::optional<Asked> asked;
+  try {
+    asked = read_measure(curve, scene);
+  } catch (const SceneError&) {
+    if (const std::string statistic = statistic_at_front(words); !statistic.empty())
+      entry.fail("\"" + words + "\" asks for one number by \"" + statistic + "\"" + remedy);
+    throw;
+  }
+  if (asked->instant || asked->last > 0 || asked->from > 0 || asked->to < std::numeric_limits<double>::infinity())
+    entry.fail("\"" + words + "\" is of one instant or window" + remedy);
+}
+
+}  // namespace
+
 std::vector<Measure> read_curves(const StudyFile& file) {
   std::vector<Measure> out;
   if (!file.root().has("keep")) return out;
   const Node keep = file.root().at("keep");
   const Question& question = file.study.scene.question;
+  const Scene scene = common_scene(file.study.scene);
   if (!over_time(question))
     keep.fail("is for analyses over time (run, kinematics and inverse); leave it out: here each case has one state");
   for (const Node& entry : keep.list(1, "a list of quantities such as [x of slider, force at crank pin]")) {
     const std::string words = entry.text("a quantity such as x of slider or force at crank pin");
+    if (std::ranges::find(out, words, &Measure::name) != out.end()) entry.fail("\"" + words + "\" is kept twice; leave one out");
     out.push_back({words, "final " + words, entry.place(), file.study.file, question, {}});
+    require_history(entry, out.back(), words, scene);
   }
-  validate(out, common_scene(file.study.scene));
   return out;
 }
 

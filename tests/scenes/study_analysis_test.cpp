@@ -157,17 +157,24 @@ TEST(StudyAnalysis, WhatAnAnalysisDoesNotKnowIsRefused) {
     std::string text;
     std::vector<std::string> says;
   };
-  for (const Bad& b : std::vector<Bad>{{"analysis: kinematics\nmeasure: peak force at hinge\n", {"motion only", "inverse"}},
-                                       {"analysis: inverse\nmeasure: energy lost\n", {"does not record energies"}},
-                                       {"analysis: statics\nmeasure: peak force at hinge\n", {"one state"}},
-                                       {"analysis: statics\nmeasure: force at hing\n", {"hing"}},
-                                       {"analysis: linearize\nmeasure: force at hinge\n", {"frequency of mode 1"}},
-                                       {"analysis: linearize\nmeasure: frequency of mode 0\n", {"frequency of mode 1"}},
-                                       {"analysis: modes\nmeasure: frequency of mode 1 of bar\n", {"bar"}},
-                                       {"analysis: kinematic\nmeasure: final angle of bar\n", {"kinematic"}},
-                                       {"measure: final angle of bar\nat: 1 s\n", {"analysis: statics and analysis: linearize only"}},
-                                       {"analysis: statics\nmeasure: angle of bar\nkeep: [x of bar]\n", {"keep", "over time"}},
-                                       {"measure: final angle of bar\nkeep: [x of bra]\n", {"keep", "bra"}}})
+  for (const Bad& b :
+       std::vector<Bad>{{"analysis: kinematics\nmeasure: peak force at hinge\n", {"motion only", "inverse"}},
+                        {"analysis: inverse\nmeasure: energy lost\n", {"does not record energies"}},
+                        {"analysis: statics\nmeasure: peak force at hinge\n", {"one state"}},
+                        {"analysis: statics\nmeasure: force at hing\n", {"hing"}},
+                        {"analysis: linearize\nmeasure: force at hinge\n", {"frequency of mode 1"}},
+                        {"analysis: linearize\nmeasure: frequency of mode 0\n", {"frequency of mode 1"}},
+                        {"analysis: modes\nmeasure: frequency of mode 1 of bar\n", {"bar"}},
+                        {"analysis: kinematic\nmeasure: final angle of bar\n", {"kinematic"}},
+                        {"measure: final angle of bar\nat: 1 s\n", {"analysis: statics and analysis: linearize only"}},
+                        {"analysis: statics\nmeasure: angle of bar\nkeep: [x of bar]\n", {"keep", "over time"}},
+                        {"measure: final angle of bar\nkeep: [x of bra]\n", {"keep", "bra"}},
+                        {"measure: final angle of bar\nkeep: [the peak angle of bar]\n", {"keep", "by \"peak\"", "under measure"}},
+                        {"measure: final angle of bar\nkeep: [time of least angle of bar]\n", {"keep", "by \"time of\""}},
+                        {"measure: final angle of bar\nkeep: [angle of bar at 0.05 s]\n", {"keep", "window"}},
+                        {"measure: final angle of bar\nkeep: [angle of bar after 10 ms]\n", {"keep", "window"}},
+                        {"measure: final angle of bar\nkeep: [angle of bar in the last 10 ms]\n", {"keep", "window"}},
+                        {"measure: final angle of bar\nkeep: [x of bar, x of bar]\n", {"keep", "twice"}}})
     pintle_test::expect_refused([&] { swept(folder, turned, b.text + sweep); }, b.says);
 }
 
