@@ -70,17 +70,25 @@ class Neighbours {
     // The images of unit vectors along the columns of Q.
     const MatrixXd grown = R_.triangularView<Eigen::Upper>().transpose().solve(after.transpose()).transpose();
     orthonormalise(grown, Q_, R_);
-    if (!(R_.diagonal().array() > 0).all() || !R_.allFinite())
-      throw OrbitTrouble{
-          "failed",
-          "t = " + number_text(until, 6) +
-              " s: a neighbour can no longer be distinguished from the motion; shorten lyapunov.every, or ask for fewer exponents"};
+    require_distinct(until);
     return R_.diagonal().array().log();
   }
 
  private:
   [[noreturn]] static void too_many(Index dimensions) {
-    throw OrbitTrouble{"failed", "the phase space has " + std::to_string(dimensions) + " dimensions; ask for at most as many exponents"};
+    throw OrbitTrouble{"failed", "the phase space has " + counted(static_cast<std::size_t>(dimensions), "dimension") +
+                                     " here: constraints and closed contacts take the others; ask for at most as many exponents"};
+  }
+
+  /// @throws OrbitTrouble  a neighbour is nearly as close to the motion as numbers of the machine are to each other
+  void require_distinct(double t) const {
+    constexpr double least = 10;
+    const double rounding = std::numeric_limits<double>::epsilon() * main_.state().y.head(scales_.size()).cwiseQuotient(scales_).norm();
+    for (Index j = 0; j < R_.cols(); ++j)
+      if (!(R_(j, j) * run_.distance > least * rounding) || !std::isfinite(R_(j, j)))
+        throw OrbitTrouble{"failed", "t = " + number_text(t, 6) + " s: the neighbour of exponent " + std::to_string(j + 1) +
+                                         " can no longer be distinguished from the motion; shorten lyapunov.every" +
+                                         (j > 0 ? ", or ask for at most " + counted(static_cast<std::size_t>(j), "exponent") : "")};
   }
 
   VectorXd distance(const Integrator& neighbour) const {
