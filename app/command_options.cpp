@@ -59,6 +59,7 @@ constexpr const char* what_modes_writes =
 constexpr const char* what_sweep_writes =
     "A study names a scene, what is measured and what is varied; docs/studies.md describes the format. It writes\n"
     "  sweep.csv               one row per case, the same for any number of workers\n"
+    "  warnings.csv            warnings of cases, if there are any\n"
     "  sweep.json, timings.csv counts by status, extremes; time of each case\n"
     "  study.yaml, scene.yaml  what was run\n"
     "  journal-0.txt, …        cases as they end; after an interruption, the same command continues from there\n"
@@ -142,7 +143,8 @@ constexpr const char* what_nonlinear_writes =
 
 constexpr const char* what_merge_writes =
     "All parts of one division are needed, in any order: the folders of pintle sweep STUDY --shard I/N for I = 1 … N. It writes what\n"
-    "one pintle sweep STUDY would have written: sweep.csv, sweep.json, timings.csv, curves/, study.yaml, scene.yaml, journal-0.txt.\n"
+    "one pintle sweep STUDY would have written: sweep.csv, warnings.csv, sweep.json, timings.csv, curves/, study.yaml, scene.yaml,\n"
+    "journal-0.txt.\n"
     "Nothing is written if a part is missing, doubled, unfinished, damaged, or of another study.\n"
     "Exit codes: see pintle --help\n";
 

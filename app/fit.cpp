@@ -102,6 +102,8 @@ int fit(const Options& options) {
     end = run_fit(plan, out, settings);
   }
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
+  if (end.best)
+    for (const std::string& warning : end.tried[*end.best].row.warnings) std::cerr << "warning: the best case: " << warning << "\n";
   if (options.json)
     std::cout << fit_json(plan, end);
   else if (!options.quiet)

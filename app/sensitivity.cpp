@@ -87,6 +87,7 @@ int sensitivity(const Options& options) {
               << plan.sweep.cases.size() << " cases; the same command continues from here\n";
     return stopped;
   }
+  if (const std::string text = warnings_text(end.rows, out / "warnings.csv"); !text.empty()) std::cerr << "warning: " << text << "\n";
   const std::vector<MeasureSensitivity> all = sensitivities(plan, end.rows);
   write_synced(out / "sensitivity.csv", sensitivity_csv(plan, all));
   write_synced(out / "sensitivity.json", sensitivity_json(plan, all));

@@ -81,6 +81,11 @@ void tell_lack_of_memory(const SweepEnd& end, const std::string& remedy) {
               << " again\n";
 }
 
+void tell_warnings(const SweepEnd& end, const fs::path& out) {
+  const std::string text = warnings_text(end.rows, end.whole ? out / "warnings.csv" : fs::path());
+  if (!text.empty()) std::cerr << "warning: " << text << "\n";
+}
+
 /// Ending of the name of a part's folder, so that parts do not share one: "-3-of-8".
 std::string own_name(const Sweep& sweep) {
   return sweep.part ? "-" + std::to_string(sweep.part->number) + "-of-" + std::to_string(sweep.part->count) : "";
@@ -105,6 +110,7 @@ int carry_out(const Sweep& sweep, const Options& options, Communicator* together
   if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
   if (!leads) return ok;
   tell_lack_of_memory(end, "the same command, with fewer --threads, runs ");
+  tell_warnings(end, out);
   if (options.json)
     std::cout << sweep_json(sweep, end);
   else if (!options.quiet)
@@ -150,6 +156,7 @@ int merge(const Options& options) {
   for (const std::string& note : merged.end.notes) std::cerr << "note: " << note << "\n";
   write_whole(options, out, [&](const fs::path& folder) { write_merged(merged, folder); });
   tell_lack_of_memory(merged.end, "pintle sweep " + merged.sweep.study.file + " --out " + out.string() + " runs ");
+  tell_warnings(merged.end, out);
   if (options.json)
     std::cout << sweep_json(merged.sweep, merged.end);
   else if (!options.quiet)

@@ -38,7 +38,8 @@ bool is_text_by_nature(const std::string& table, const std::string& heading) {
                                                                                  {"sweep-so-far", {"status", "reason"}},
                                                                                  {"timings", {"process.thread"}},
                                                                                  {"tradeoff", {"status", "role", "reason"}},
-                                                                                 {"values", {"direction", "status", "reason"}}};
+                                                                                 {"values", {"direction", "status", "reason"}},
+                                                                                 {"warnings", {"warning"}}};
   const auto found = columns.find(table);
   return found != columns.end() && std::ranges::find(found->second, heading) != found->second.end();
 }

@@ -101,6 +101,7 @@ Run follow_case(const Scene& scene, const Model& model, const Assembly& assembly
 void take_over(Outcome& out, const Run& run) {
   out.status = status_text(run.status);
   out.reason = one_line(run.reason);
+  for (const std::string& warning : run.warnings) out.warnings.push_back(one_line(warning));
   out.t_end = run.t_end;
   out.counts = run.counts;
   out.impacts = static_cast<long>(run.impacts.size());
@@ -251,6 +252,7 @@ Outcome one_outcome(const CaseSource& source, const Overrides& overrides, const 
 void merge(Outcome& whole, const Outcome& part, const std::vector<std::size_t>& places, const std::string& situation) {
   for (std::size_t i = 0; i < places.size(); ++i) whole.values[places[i]] = part.values[i], whole.units[places[i]] = part.units[i];
   for (const auto& [none, curves] : part.curves) whole.curves[situation] = curves;
+  for (const std::string& warning : part.warnings) whole.warnings.push_back("in " + situation + ": " + warning);
   whole.build_seconds += part.build_seconds, whole.run_seconds += part.run_seconds;
   whole.t_end = whole.status.empty() ? part.t_end : std::min(whole.t_end, part.t_end);
   whole.counts.steps += part.counts.steps, whole.impacts += part.impacts;

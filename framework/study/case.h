@@ -49,8 +49,9 @@ struct Outcome {
   long impacts = 0;              ///< of all clearances
   double unexplained_share = 0;  ///< largest energy-balance error over Run::energy_in_play
   std::map<std::string, std::string> curves =
-      {};                          ///< per situation ("" if there is none), a CSV file: time, and a column for each requested curve
-  std::shared_ptr<const Run> run;  ///< kept if requested; none for modal analyses
+      {};                                  ///< per situation ("" if there is none), a CSV file: time, and a column for each requested curve
+  std::vector<std::string> warnings = {};  ///< of the run, one line each
+  std::shared_ptr<const Run> run;          ///< kept if requested; none for modal analyses
 };
 
 struct CaseLimits {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "framework/common/text.h"
 #include "tests/scenes/sweep_folder.h"
 #include "tests/unit/scarce_threads.h"
 #include "tests/refusal.h"
@@ -63,6 +64,20 @@ TEST(Sweep, ACaseThatFailsIsARowWithItsReason) {
     EXPECT_EQ(std::isnan(r.values.at(0)), negative);
   }
   EXPECT_EQ(statuses(end.rows).at("refused"), 27u);
+}
+
+// Forces at a loose tolerance by generalised-alpha: `run` warns of them.
+TEST(Sweep, ListsTheWarningsOfItsCases) {
+  const SweepFolder folder;
+  const Sweep sweep = turned(folder, "{grid: {run.method: [dopri5, generalized-alpha], run.tolerance: [1e-4, 1e-6]}}");
+  const SweepEnd end = run_sweep(sweep, folder / "out", {1, nullptr, {}});
+  ASSERT_EQ(end.rows.at(2).warnings.size(), 1u);
+  EXPECT_NE(end.rows.at(2).warnings.front().find("generalised-α at a tolerance of 0.0001"), std::string::npos);
+  EXPECT_EQ(contents(folder / "out/warnings.csv"), "case,warning\n3," + csv_field(end.rows.at(2).warnings.front()) + "\n");
+  EXPECT_EQ(warnings_text(end.rows, "w.csv"), "1 case of 4 has warnings, see w.csv; case 3: " + end.rows.at(2).warnings.front());
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "out/sweep.json")).at("cases with warnings"), 1);
+  run_sweep(turned(folder, "{grid: {run.method: [dopri5]}}"), folder / "none", {1, nullptr, {}});
+  EXPECT_FALSE(fs::exists(folder / "none/warnings.csv"));
 }
 
 TEST(Sweep, StepsMayBeLimitedForAllCases) {

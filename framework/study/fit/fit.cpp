@@ -86,18 +86,9 @@ class Evaluations {
     }
     std::vector<double> values = place(u);
     values.insert(values.end(), outcome.values.begin(), outcome.values.end());
-    return {number,
-            outcome.status,
-            outcome.reason,
-            values,
-            outcome.units,
-            outcome.t_end,
-            outcome.unexplained_share,
-            outcome.counts.steps,
-            outcome.impacts,
-            "0",
-            outcome.build_seconds,
-            outcome.run_seconds};
+    Row row = row_of(number, outcome, "0");
+    row.values = std::move(values);
+    return row;
   }
 
   /// The variables in SI.

@@ -129,6 +129,22 @@ bool is_journal(const fs::path& path) { return path.filename().string().starts_w
 
 bool lacked_memory(const Row& row) { return row.status == status_text(Status::out_of_memory); }
 
+Row row_of(std::size_t number, const Outcome& o, std::string worker) {
+  return {.number = number,
+          .status = o.status,
+          .reason = o.reason,
+          .values = o.values,
+          .units = o.units,
+          .t_end = o.t_end,
+          .unexplained_share = o.unexplained_share,
+          .steps = o.counts.steps,
+          .impacts = o.impacts,
+          .worker = std::move(worker),
+          .build_seconds = o.build_seconds,
+          .run_seconds = o.run_seconds,
+          .warnings = o.warnings};
+}
+
 std::string line_of(const Row& r) {
   Json values = Json::array();
   for (double x : r.values) values.push_back(exact(x));
@@ -145,6 +161,7 @@ std::string line_of(const Row& r) {
            {"build", exact(r.build_seconds)},
            {"run", exact(r.run_seconds)}};
   if (!r.curves.empty()) row["curves"] = r.curves;
+  if (!r.warnings.empty()) row["warnings"] = r.warnings;
   return sealed(row);
 }
 
@@ -160,6 +177,7 @@ std::optional<Row> row_of(std::string_view line) try {
   if (!j.at("values").is_array()) return {};
   for (const Json& x : j.at("values")) r.values.push_back(exact(x));
   if (j.contains("curves")) r.curves = j.at("curves").get<std::map<std::string, std::string>>();
+  if (j.contains("warnings")) r.warnings = j.at("warnings").get<std::vector<std::string>>();
   for (const auto& [name, print] : r.curves)
     if (!is_curve_of(r.number, name)) return {};
   return r;

@@ -27,10 +27,14 @@ struct Row {
   std::string worker;  ///< "process.thread"; not in the table
   double build_seconds = 0, run_seconds = 0;
   std::map<std::string, std::string> curves = {};  ///< name of each kept curve and fingerprint of its text
+  std::vector<std::string> warnings = {};          ///< of its run, one line each
 };
 
 /// Its process ran out of memory, for which the case may not be the cause: it is run again when the sweep continues.
 bool lacked_memory(const Row&);
+
+/// @param worker  as in Row
+Row row_of(std::size_t number, const Outcome&, std::string worker);
 
 /// One line: a checksum and the row; numbers are restored to the bit.
 std::string line_of(const Row&);

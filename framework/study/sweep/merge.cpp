@@ -249,6 +249,7 @@ void write_merged(const Merged& merged, const fs::path& folder) {
   write_text(folder / "study.yaml", merged.sweep.text);
   write_text(folder / "scene.yaml", merged.sweep.study.scene.text);
   write_text(folder / "timings.csv", timings_csv(merged.end.rows));
+  if (const std::string warnings = warnings_csv(merged.end.rows); !warnings.empty()) write_text(folder / "warnings.csv", warnings);
   write_text(folder / "sweep.json", sweep_json(merged.sweep, merged.end));
   write_text(folder / table_name(merged.sweep), sweep_csv(merged.sweep, merged.end.rows));
   if (!merged.keeps_curves) return;

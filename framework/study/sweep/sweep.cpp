@@ -238,6 +238,11 @@ void write_tables(const Sweep& sweep, const fs::path& folder, const SweepEnd& en
     return;
   }
   fs::remove(folder / "sweep-so-far.csv", ignored);
+  const std::string warnings = warnings_csv(end.rows);
+  if (warnings.empty())
+    fs::remove(folder / "warnings.csv", ignored);
+  else
+    write_synced(folder / "warnings.csv", warnings);
   write_synced(folder / table_name(sweep), sweep_csv(sweep, end.rows));
   write_synced(folder / "timings.csv", timings_csv(end.rows));
   const fs::path of_session = folder / "sweep.json";  // of the last one that ran a case

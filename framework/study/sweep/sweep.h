@@ -80,7 +80,7 @@ struct SweepEnd {
 };
 
 /// Runs the cases that are not finished, and writes into `folder` (created, or continued): sweep.csv, identical to the bit for any number
-/// of workers and interruptions; timings.csv; sweep.json; study.yaml and scene.yaml, as run; journal-N.txt. A stopped session writes
+/// of workers and interruptions; warnings.csv, if a case has any; timings.csv; sweep.json; study.yaml and scene.yaml, as run; journal-N.txt. A stopped session writes
 /// sweep-so-far.csv instead of the table. A part writes sweep-part.csv with its cases, and part.json. With several processes, all of them
 /// call it with the same study and folder; only process 0 writes tables.
 /// @throws SceneError          the folder holds something else, or another study
@@ -96,6 +96,10 @@ void stay_away(Communicator&);
 /// sweep.csv: a row per case. @pre rows in the order of their numbers
 std::string sweep_csv(const Sweep&, const std::vector<Row>& rows);
 std::string timings_csv(const std::vector<Row>& rows);
+/// warnings.csv: a row for each warning of each case. Empty if there is none.
+std::string warnings_csv(const std::vector<Row>& rows);
+/// How many cases have warnings, and the first one. Empty if there is none. @param file  that lists them; empty: there is none yet
+std::string warnings_text(const std::vector<Row>& rows, const std::filesystem::path& file);
 /// Number of cases with each status.
 std::map<std::string, std::size_t> statuses(const std::vector<Row>& rows);
 /// Extremes of a measure, and their cases (0: no case has a value).

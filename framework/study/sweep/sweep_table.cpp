@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -109,6 +110,22 @@ std::string timings_csv(const std::vector<Row>& rows) {
   return out;
 }
 
+std::string warnings_csv(const std::vector<Row>& rows) {
+  std::string out;
+  for (const Row& r : rows)
+    for (const std::string& warning : r.warnings) out += std::to_string(r.number) + "," + csv_field(warning) + "\n";
+  return out.empty() ? out : "case,warning\n" + out;
+}
+
+std::string warnings_text(const std::vector<Row>& rows, const std::filesystem::path& file) {
+  const auto has = [](const Row& row) { return !row.warnings.empty(); };
+  const auto first = std::ranges::find_if(rows, has);
+  if (first == rows.end()) return "";
+  const auto n = static_cast<std::size_t>(std::ranges::count_if(rows, has));
+  return counted(n, "case") + " of " + std::to_string(rows.size()) + (n == 1 ? " has" : " have") + " warnings" +
+         (file.empty() ? "" : ", see " + file.string()) + "; case " + std::to_string(first->number) + ": " + first->warnings.front();
+}
+
 std::map<std::string, std::size_t> statuses(const std::vector<Row>& rows) {
   std::map<std::string, std::size_t> out;
   for (const Row& r : rows) ++out[r.status];
@@ -135,6 +152,7 @@ std::string sweep_json(const Sweep& sweep, const SweepEnd& end) {
     measures[r.header] = {{"least", r.least}, {"least in case", r.least_in}, {"greatest", r.greatest}, {"greatest in case", r.greatest_in}};
   double busy = 0;
   for (const Row& r : end.rows) busy += r.build_seconds + r.run_seconds;
+  const auto doubtful = std::ranges::count_if(end.rows, [](const Row& r) { return !r.warnings.empty(); });
   Json out = {{"program", "pintle"},
               {"version", PINTLE_VERSION},
               {"title", sweep.study.title},
@@ -145,6 +163,7 @@ std::string sweep_json(const Sweep& sweep, const SweepEnd& end) {
               {"statuses", statuses(end.rows)},
               {"varied", sweep.cases.names},
               {"measures", measures},
+              {"cases with warnings", doubtful},
               {"computing time of all cases [s]", busy},
               {"this session",
                {{"cases", end.count.done},

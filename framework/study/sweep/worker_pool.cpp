@@ -121,18 +121,7 @@ void WorkerPool::run(std::size_t number, int thread) {
     outcome.reason = "there was not enough memory; run fewer cases at once (--threads)";
   }
   if (stopped_ || outcome.status == status_text(Status::interrupted)) return;
-  Row row{number,
-          outcome.status,
-          outcome.reason,
-          outcome.values,
-          outcome.units,
-          outcome.t_end,
-          outcome.unexplained_share,
-          outcome.counts.steps,
-          outcome.impacts,
-          std::to_string(rank_) + "." + std::to_string(thread),
-          outcome.build_seconds,
-          outcome.run_seconds};
+  Row row = row_of(number, outcome, std::to_string(rank_) + "." + std::to_string(thread));
   write_curves(outcome.curves, folder_, row);
   journal_.append(row);
   const std::lock_guard lock(mutex_);
