@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <regex>
 #include <set>
@@ -92,9 +93,8 @@ TEST(SweepPart, EveryCaseIsInOnePartAndPartsDifferByOneCase) {
 
 TEST(SweepPart, NoPartHasOneValueOfAGridAlone) {
   const SweepFolder folder;
-  const Sweep sweep = sweep_in(folder, head +
-                                           "measure: {turn: final angle of rod}\n"
-                                           "sweep: {grid: {angle: [0 deg, 1 deg, 2 deg, 3 deg], mass: [1 kg, 2 kg, 3 kg, 4 kg]}}\n");
+  const std::string values_of_two = "sweep: {grid: {angle: [0 deg, 1 deg, 2 deg, 3 deg], mass: [1 kg, 2 kg, 3 kg, 4 kg]}}\n";
+  const Sweep sweep = sweep_in(folder, head + "measure: {turn: final angle of rod}\n" + values_of_two);
   for (std::size_t i = 1; i <= 4; ++i)
     for (std::size_t name : {0u, 1u}) {
       std::set<std::string> values;
@@ -149,9 +149,8 @@ TEST(SweepPart, WritesATableOfItsOwnName) {
   const SweepFolder folder;
   const std::vector<fs::path> parts = parts_in(folder, sweep_in(folder, grid), 20);
   EXPECT_FALSE(fs::exists(parts[0] / "sweep.csv"));
-  const std::string table = contents(parts[0] / "sweep-part.csv"), empty = contents(parts[19] / "sweep-part.csv");
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2);
-  EXPECT_EQ(std::count(empty.begin(), empty.end(), '\n'), 1);
+  EXPECT_EQ(std::ranges::count(contents(parts[0] / "sweep-part.csv"), '\n'), 2);
+  EXPECT_EQ(std::ranges::count(contents(parts[19] / "sweep-part.csv"), '\n'), 1);
 }
 
 TEST(SweepPart, StoppedItGoesOnAndIsNotMergedBefore) {
