@@ -16,10 +16,10 @@ namespace pintle::python {
 
 namespace {
 
-/// (sweep.csv, sweep.json)
+/// (sweep.csv, sweep.json, warnings.csv or "", the same in a sentence)
 py::tuple sweep(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
-  std::string csv, json;
+  std::string csv, json, warnings, sentence;
   {
     const py::gil_scoped_release free;
     const Sweep what = read_sweep(study, set);
@@ -28,19 +28,21 @@ py::tuple sweep(const std::string& study, const std::string& folder, const Overr
     settings.progress = [&](const SweepCount&) { return watch(); };
     const SweepEnd end = run_sweep(what, folder, settings);
     csv = sweep_csv(what, end.rows), json = sweep_json(what, end);
+    warnings = warnings_csv(end.rows), sentence = warnings_text(end.rows, {});
   }
   watch.raise();
-  return py::make_tuple(csv, json);
+  return py::make_tuple(csv, json, warnings, sentence);
 }
 
-/// (fit.csv, fit.json, whether the goal is met, the scene's file, its overrides for the best point, this point by name, its measures by name);
-/// the file is empty if no point was found
+/// (fit.csv, fit.json, whether the goal is met, the scene's file, its overrides for the best point, this point by name, its measures by name,
+/// warnings of the best case); the file is empty if no point was found
 py::tuple fit(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string csv, json;
   std::optional<std::string> file;
   bool met = false;
   std::vector<std::tuple<std::string, double>> point, measures;
+  std::vector<std::string> warnings;
   Overrides best;
   {
     const py::gil_scoped_release free;
@@ -52,6 +54,7 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
     csv = fit_csv(plan, end), json = fit_json(plan, end);
     if (end.best) {
       const FitCase& t = end.tried[*end.best];
+      warnings = t.row.warnings;
       met = end.meets(plan), file = plan.source.file.string(), best = plan.source.common;
       for (auto& [name, value] : best_point(plan, end)) best.emplace_back(name, value);
       for (std::size_t j = 0; j < plan.variables.size(); ++j) point.emplace_back(variable_header(plan.variables[j]), variable_value(t, j));
@@ -60,14 +63,14 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
     }
   }
   watch.raise();
-  return py::make_tuple(csv, json, met, file, best, point, measures);
+  return py::make_tuple(csv, json, met, file, best, point, measures, warnings);
 }
 
-/// The number of cases that did not run to their end, and the reason of the first; empty: all did.
-std::string lost_cases(const std::vector<Row>& rows) {
+/// The number of cases that did not run to their end, and the reason of the first; otherwise their warnings; empty: there are none.
+std::string doubts(const std::vector<Row>& rows) {
   const auto lost = [](const Row& r) { return r.status != "finished"; };
   const auto first = std::ranges::find_if(rows, lost);
-  if (first == rows.end()) return {};
+  if (first == rows.end()) return warnings_text(rows, {});
   return std::to_string(std::ranges::count_if(rows, lost)) + " of " + std::to_string(rows.size()) +
          " cases did not run to their end and are left out of the results; case " + std::to_string(first->number) + ": " + first->status +
          ": " + first->reason;
@@ -87,7 +90,7 @@ py::tuple sensitivity(const std::string& study, const std::string& folder, const
     if (end.whole) {
       const std::vector<MeasureSensitivity> all = sensitivities(plan, end.rows);
       csv = sensitivity_csv(plan, all), json = sensitivity_json(plan, all);
-      cases = sweep_csv(plan.sweep, end.rows), warning = lost_cases(end.rows);
+      cases = sweep_csv(plan.sweep, end.rows), warning = doubts(end.rows);
       write_synced(std::filesystem::path(folder) / "sensitivity.csv", csv);
       write_synced(std::filesystem::path(folder) / "sensitivity.json", json);
     }

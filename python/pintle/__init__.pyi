@@ -215,11 +215,13 @@ class Scene:
 
 class SweepResult(TextTable):
     info: dict[str, Any]
-    def __init__(self, text: str, info: str) -> None: ...
+    warnings: TextTable | None
+    def __init__(self, text: str, info: str, warnings: str) -> None: ...
 
 class FitResult(TextTable):
     info: dict[str, Any]
     met: bool
+    warnings: list[str]
     point: dict[str, float]
     measures: dict[str, float]
     scene: Scene | None

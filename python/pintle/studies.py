@@ -3,12 +3,11 @@
 import json
 import os
 import tempfile
-import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
 from . import _core
-from .errors import ModelWarning
+from .results import warn
 from .scene import Scene, overrides, plain
 from .tables import TextTable, split
 
@@ -31,20 +30,22 @@ def _files(study, out):
 
 
 class SweepResult(TextTable):
-    """A row for each case; columns are the varied parameters and the measures."""
+    """A row for each case; columns are the varied parameters and the measures. `warnings`: a table of the cases' warnings, None if there are none."""
 
-    def __init__(self, text, info):
+    def __init__(self, text, info, warnings):
         super().__init__(text)
         self.info = json.loads(info)
+        self.warnings = TextTable(warnings) if warnings else None
 
 
 class FitResult(TextTable):
     """A row for each case that was computed."""
 
-    def __init__(self, text, info, met, file, best, point, measures):
+    def __init__(self, text, info, met, file, best, point, measures, warnings):
         super().__init__(text)
         self.info = json.loads(info)
         self.met = met
+        self.warnings = warnings
         self.point = {split(name)[0]: value for name, value in point}
         self.measures = {split(name)[0]: value for name, value in measures}
         self.scene = None if file is None else Scene(_core.Scene.of_file(file, best))
@@ -95,21 +96,24 @@ class TradeoffResult(TextTable):
 def sweep(study, out=None, set=None, threads=None):
     """Runs the cases of a study, given as a file or a dict of its content. `out`: the folder of its files, from which it continues; without it nothing is kept."""
     with _files(study, out) as (file, folder):
-        return SweepResult(*_core.sweep(file, folder, overrides(set), _threads(threads)))
+        *tables, doubts = _core.sweep(file, folder, overrides(set), _threads(threads))
+    warn([doubts] if doubts else [])
+    return SweepResult(*tables)
 
 
 def fit(study, out=None, set=None, threads=None):
     """Finds parameters that reach the goal of a study, given as a file or a dict; `scene` of the result is the scene with them, or None if none were found."""
     with _files(study, out) as (file, folder):
-        return FitResult(*_core.fit(file, folder, overrides(set), _threads(threads)))
+        result = FitResult(*_core.fit(file, folder, overrides(set), _threads(threads)))
+    warn([f"the best case: {doubt}" for doubt in result.warnings])
+    return result
 
 
 def sensitivity(study, out=None, set=None, threads=None):
     """Finds how measures depend on parameters and their tolerances, as a study, a file or a dict, asks for it. `out` as of `sweep`."""
     with _files(study, out) as (file, folder):
         result = SensitivityResult(*_core.sensitivity(file, folder, overrides(set), _threads(threads)))
-    if result.warning:
-        warnings.warn(result.warning, ModelWarning, stacklevel=2)
+    warn([result.warning] if result.warning else [])
     return result
 
 

@@ -226,6 +226,8 @@ class CommandLine(unittest.TestCase):
                     self.same_words(getattr(found, part), out / f"{part}.csv")
             return
         self.same_words(found, out / f"{question}.csv", measured_times)
+        if question == "sweep" and found.warnings:
+            self.same_words(found.warnings, out / "warnings.csv")
         if question == "sensitivity":
             self.same_words(found.cases, out / "sweep.csv", measured_times)
         if question == "tradeoff":
@@ -234,6 +236,22 @@ class CommandLine(unittest.TestCase):
 
     def test_sweep(self):
         self.studied_alike("sweep", examples / "studies" / "clearance.yaml")
+
+    def test_sweep_with_warnings(self):
+        study = {
+            "scene": str(examples / "pendulum.yaml"), "set": {"run.until": "0.1 s", "run.tolerance": 1e-4},
+            "measure": {"turn": "final angle of bob"}, "sweep": {"grid": {"run.method": ["dopri5", "generalized-alpha"]}},
+        }
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            self.assertEqual(pintle.sweep(study).warnings["case"].tolist(), [2])
+        self.assertEqual([w.category for w in told], [pintle.ModelWarning])
+        self.assertIn("1 case of 2 has warnings; case 2: ", str(told[0].message))
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        file = Path(place.name) / "study.yaml"
+        file.write_text(json.dumps(study))
+        self.studied_alike("sweep", file)
 
     def test_fit(self):
         self.studied_alike("fit", examples / "studies" / "fit_frequency.yaml")
