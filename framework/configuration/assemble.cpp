@@ -206,8 +206,10 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
     const VectorXd before = s;
     s += least_step(J, W, -left, 1e-13, 8);
     const VectorXd now = closure.drift(r.y);
-    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) s = before;
-    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) break;
+    if (!(now.lpNorm<Eigen::Infinity>() < left.lpNorm<Eigen::Infinity>())) {
+      s = before;
+      break;
+    }
     left = now;
   }
   if (left.lpNorm<Eigen::Infinity>() > 1e-8 * scale)

@@ -86,7 +86,8 @@ std::vector<int> elimination_order(const System& system, const Equations& eq, co
     if (body[at(p.row)] != body[at(p.column)]) meet.push_back({body[at(p.row)], body[at(p.column)]});
   double pairs = 0;  // entries of S, counted in joints: a hub with many joints makes it dense
   for (const std::vector<int>& on : joints) pairs += static_cast<double>(on.size() * on.size());
-  const bool hub = pairs > 20 * static_cast<double>(system.joints.size());
+  constexpr double much = 20;  // per joint; 4 in a chain
+  const bool hub = pairs > much * static_cast<double>(system.joints.size());
   return meet.empty() && !hub ? rows_last(system, joints) : body_by_body(system, joints, std::move(meet));
 }
 

@@ -109,7 +109,6 @@ void read_coupling(const Node& joint, const JointWord&, SceneJoint&);
 bool says_present(const Node&);
 /// The law of the part added to `present`. @param until  as for read_time_law
 Law read_after_present(const Node&, const Dimension&, double until = 0);
-void must_be_finite(const Node&, const Law&, Smoothness, double until);
 /// Name of a point that the body has.
 std::string read_own_point(const Node&, const SceneBody&);
 /// n quantities in a list, each satisfying the rule. `remedy`: what to write.

@@ -52,7 +52,7 @@ void refuse_absent_column(const Measure& m, const Asked& asked, const Scene& sce
   const std::string name = asked.owner + "." + asked.part;
   const Measurables all = measurables_of(scene);
   const bool acts = std::ranges::find(all.actors, asked.owner) != all.actors.end();
-  if (!acts || !is_no_word(scene, name)) return;
+  if (!acts || !is_unknown_signal(scene, name)) return;
   for (const char* section : {"joints", "contacts", "drivers", "forces"})
     for (const std::string& path : varied)
       if (path == section || path.starts_with(std::string(section) + "." + asked.owner)) return;

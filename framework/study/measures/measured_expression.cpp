@@ -69,7 +69,7 @@ bool is_signal_alone(const Scene& scene, const std::string& name) {
   return found != words.end() && std::ranges::find(alone, found->second.what) != alone.end();
 }
 
-bool is_no_word(const Scene& scene, const std::string& name) { return !signal_words(scene).contains(name); }
+bool is_unknown_signal(const Scene& scene, const std::string& name) { return !signal_words(scene).contains(name); }
 
 bool is_of_motion(const Scene& scene, const Asked& asked) {
   if (asked.expression) return follows_from_motion(scene, asked.expression->law);

@@ -22,7 +22,7 @@ bool looks_like_a_formula(const std::string& text);
 /// Whether it is a signal that has no column, such as "coil.length".
 bool is_signal_alone(const Scene&, const std::string& name);
 /// Whether no signal of the scene has this name, such as "coil.normal", although other elements may have one.
-bool is_no_word(const Scene&, const std::string& name);
+bool is_unknown_signal(const Scene&, const std::string& name);
 /// Whether the measure depends only on positions, speeds and accelerations, which kinematics computes, and on no forces.
 bool is_of_motion(const Scene&, const Asked&);
 
