@@ -135,19 +135,27 @@ void require_other_names(const std::vector<Measure>& measures, const std::vector
 
 namespace {
 
+/// What the words ask for by themselves; nothing if they cannot be read.
+std::optional<Asked> read_alone(Measure curve, const std::string& words, const Scene& scene) {
+  curve.words = words;
+  try {
+    return read_measure(curve, scene);
+  } catch (const SceneError&) {
+    return {};
+  }
+}
+
 /// A curve is a whole time history, so its words have no statistic and no time.
 void require_history(const Node& entry, const Measure& curve, const std::string& words, const Scene& scene) {
-  const std::string remedy = "; each case keeps the whole history: leave it out, or ask for it under measure";
-  std::optional<Asked> asked;
-  try {
-    asked = read_measure(curve, scene);
-  } catch (const SceneError&) {
-    if (const std::string statistic = statistic_at_front(words); !statistic.empty())
+  const std::string remedy = "; each case keeps the whole history: leave these words out, or ask for the number under measure";
+  if (const auto asked = read_alone(curve, words, scene)) {
+    const std::string statistic = statistic_at_front(words);
+    if ((asked->statistic != Statistic::none || asked->frequency) && !statistic.empty())
       entry.fail("\"" + words + "\" asks for one number by \"" + statistic + "\"" + remedy);
-    throw;
+    if (asked->instant || asked->last > 0 || asked->from > 0 || asked->to < std::numeric_limits<double>::infinity())
+      entry.fail("\"" + words + "\" names an instant or a window of time" + remedy);
   }
-  if (asked->instant || asked->last > 0 || asked->from > 0 || asked->to < std::numeric_limits<double>::infinity())
-    entry.fail("\"" + words + "\" is of one instant or window" + remedy);
+  read_measure(curve, scene);
 }
 
 }  // namespace

@@ -169,9 +169,10 @@ TEST(StudyAnalysis, WhatAnAnalysisDoesNotKnowIsRefused) {
                         {"measure: final angle of bar\nat: 1 s\n", {"analysis: statics and analysis: linearize only"}},
                         {"analysis: statics\nmeasure: angle of bar\nkeep: [x of bar]\n", {"keep", "over time"}},
                         {"measure: final angle of bar\nkeep: [x of bra]\n", {"keep", "bra"}},
-                        {"measure: final angle of bar\nkeep: [the peak angle of bar]\n", {"keep", "by \"peak\"", "under measure"}},
+                        {"measure: final angle of bar\nkeep: [the peak angle of bar]\n", {"keep[1]", "by \"peak\"", "under measure"}},
                         {"measure: final angle of bar\nkeep: [time of least angle of bar]\n", {"keep", "by \"time of\""}},
-                        {"measure: final angle of bar\nkeep: [angle of bar at 0.05 s]\n", {"keep", "window"}},
+                        {"measure: final angle of bar\nkeep: [angle of bar at 0.05 s]\n", {"keep", "an instant or a window"}},
+                        {"measure: final angle of bar\nkeep: [frequency of angle of bar]\n", {"keep", "by \"frequency of\""}},
                         {"measure: final angle of bar\nkeep: [angle of bar after 10 ms]\n", {"keep", "window"}},
                         {"measure: final angle of bar\nkeep: [angle of bar in the last 10 ms]\n", {"keep", "window"}},
                         {"measure: final angle of bar\nkeep: [x of bar, x of bar]\n", {"keep", "twice"}}})
