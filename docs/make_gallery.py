@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Writes docs/gallery.md and the pictures in docs/gallery/: each scene of examples/ as the program draws it, with what its head says to expect.
+"""Writes docs/gallery.md and the pictures in docs/gallery/: each scene of examples/ as the program draws it, with what its head says to expect and
+what the program says it found. docs/gallery/numbers.json keeps the latter.
 
-usage: make_gallery.py PINTLE PINTLE_PICTURE [SCENE …]      of some scenes the pictures alone are made again
+usage: make_gallery.py PINTLE PINTLE_PICTURE [SCENE …]      of some scenes the pictures and numbers alone are made again
 """
 
+import json
 import re
 import subprocess
 import sys
@@ -20,6 +22,10 @@ telling = {"box_and_ramp": 0.6, "breaker": 0.8, "chain_200": 0.9, "guide_with_pl
 around = {"walker": "body", "woodpecker": "bird"}  # small beside the ground or the pole that they move along
 fields = {"modes": ("modes.vtu", "mode 01 [mm]"), "static": ("static.vtu", "von Mises [Pa]"), "mesh": ("mesh.vtu", "scaled Jacobian")}
 greatest = 45_000  # bytes of a picture
+# Rows of the program's summary that differ from run to run or from machine to machine, or say how it was computed.
+of_the_run = ("results", "time ", "steps", "method", "constraints held", "unexplained", "warning", "note", "finished", "at rest", "stopped", "found",
+              "Sturm", "rigid motions", "held ", "sum ", "mode ", "mesh ", "stress jump", "over ")
+most_numbers = 8
 groups = [
     ("Linkages", "pendulum four_bar_spring inverse_four_bar coupler_curve chebyshev_straight_line hoecken_straight_line kinematics_quick_return "
      "statics_lever double_wishbone rear_suspension excavator chain_200"),
@@ -37,7 +43,7 @@ class Scene:
     def __init__(self, file):
         text = file.read_text(encoding="utf-8")
         head = [line[1:].strip() for line in re.match(r"(?:#.*\n)+", text)[0].splitlines()]
-        self.file, self.name = file, file.stem
+        self.file, self.name, self.numbers = file, file.stem, []
         self.title = re.search(r"(?m)^title: *(.*)", text)[1].strip("\"'")
         told = re.search(r"pintle (run|kinematics|inverse|statics|static|modes|mesh|linearize) examples/" + re.escape(file.name), "\n".join(head))
         asked = {"statics": ("statics_",), "modes": ("modes_",), "static": ("static_",), "kinematics": ("kinematics_",)}
@@ -56,12 +62,13 @@ class Scene:
     def draw(self, pintle, draw):
         with tempfile.TemporaryDirectory() as place:
             out = Path(place) / "out"
-            command = [pintle, self.command, str(self.file), "--out", str(out), "--quiet"]
+            command = [pintle, self.command, str(self.file), "--out", str(out)]
             if self.command in ("run", "kinematics", "inverse"):
                 command += ["--set", f"output.frames={more_frames.get(self.name, frames)}"]
             done = subprocess.run(command, capture_output=True, text=True)
             if done.returncode not in (0, 5):
                 return f"{self.name}: {' '.join(command)}: {done.stderr}"
+            self.numbers = numbers_of(done.stdout)
             self.picture.parent.mkdir(exist_ok=True)
             for width in (560, 480, 400, 320, 260, 200):
                 if self.command in fields:
@@ -81,22 +88,42 @@ class Scene:
             return f"{self.name}: its picture stays larger than {greatest} bytes"
 
     def section(self):
+        found = "\n".join(self.numbers)
         return (f"### {self.title[0].upper() + self.title[1:]}\n\n![{self.title}](gallery/{self.name}.png)\n\n"
-                f"[{self.name}.yaml](../examples/{self.name}.yaml), `./dev {self.command} examples/{self.name}.yaml`\n\n{self.escaped()}\n")
+                f"[{self.name}.yaml](../examples/{self.name}.yaml), `./dev {self.command} examples/{self.name}.yaml`\n\n{self.escaped()}\n"
+                + (f"\n```\n{found}\n```\n" if found else ""))
 
     def escaped(self):
         return re.sub(r"([*_<>|])", r"\\\1", self.words)
+
+
+def numbers_of(summary):
+    """What the program found, from its summary: its rows of results, each "label  value"."""
+    out = []
+    for line in summary.splitlines()[1:]:
+        row = re.sub(r"[,;]? *(/tmp/|\(error of).*", "", line.rstrip())
+        if mode := re.match(r" +(\d+) +(\d[\d.e+-]*) ", row):
+            out.append(f"  mode {mode[1]}  {mode[2]} Hz")
+        elif row.strip() and not row.strip().startswith(of_the_run):
+            out.append(row)
+    return out[:most_numbers]
 
 
 def main(pintle, draw, *names):
     scenes = {s.stem: s for s in sorted((root / "examples").glob("*.yaml"))}
     scenes = {name: Scene(file) for name, file in scenes.items() if re.search(r"(?m)^(bodies|include|instances|assemblies):", file.read_text())
               and name != "engine_cylinder"}  # a part of engine_four
+    kept = root / "docs" / "gallery" / "numbers.json"
+    if names and kept.exists():
+        for name, numbers in json.loads(kept.read_text(encoding="utf-8")).items():
+            if name in scenes:
+                scenes[name].numbers = numbers
     chosen = [scenes[n] for n in names] or list(scenes.values())
     with ThreadPoolExecutor(2) as pool:
         troubles = [t for t in pool.map(lambda s: s.draw(pintle, draw), chosen) if t]
+    kept.write_text(json.dumps({n: s.numbers for n, s in scenes.items()}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     listed = {name for _, group in groups for name in group.split()}
-    page = ("# Gallery\n\nEach scene of `examples/`, drawn by the program, with what its file says to expect. Written by `./dev gallery` "
+    page = ("# Gallery\n\nEach scene of `examples/`, drawn by the program, with what its file says to expect and what the program found. Written by `./dev gallery` "
             "(docs/make_gallery.py).\n")
     for title, group in groups + [("Others", " ".join(sorted(scenes.keys() - listed)))]:
         found = [scenes[n] for n in group.split() if n in scenes]
