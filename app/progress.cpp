@@ -44,7 +44,9 @@ void say(const char* words) {
 
 extern "C" void end_at_once(int signal) {
   if (::isatty(STDERR_FILENO)) say("\r\033[K");  // a progress line may be there
-  say("pintle: "), say(stop_words(signal)), say(" while "), say(activity), say("; there are no results yet\n");
+  say("pintle: "), say(stop_words(signal)), say(" while "), say(activity);
+  const char* where = where_results_are();
+  say(*where != '\0' ? where : "; there are no results yet"), say("\n");
   constexpr int stopped = 6;
   ::_exit(stopped);
 }

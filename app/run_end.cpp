@@ -65,12 +65,13 @@ void tell_leftovers(const Options& options, const fs::path& out) {
 }
 
 void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {
-  handle_signals();  // computed results are written first
   now_doing("writing the results");
   tell_leftovers(options, out);
   ResultsDirectory results(out);
   results_are_in(results.path().string());
+  if (!asked_to_stop()) end_on_signals();  // otherwise the user has asked already, and this is what was computed
   write(results.path());
+  handle_signals();
   results.commit();
 }
 

@@ -62,6 +62,29 @@ TEST_P(Stopped, ARunStoppedBySignalKeepsItsResultsAndSaysWhich) {
   EXPECT_EQ(report["status"], "interrupted");
   EXPECT_NE(report["reason"].get<std::string>().find(GetParam().word), std::string::npos);
 }
+
+// Of a hundred thousand frames hardly any is there when the signal comes.
+TEST_P(Stopped, WritingEndsBySignalAndSaysWhereItsBeginningIs) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", results = folder.path() / "results";
+  fs::create_directory(results);
+  const pid_t child = start(log, {PINTLE_PROGRAM, "modes", PINTLE_SOURCE_DIR "/examples/modes_beam.yaml", "--count", "1", "--frames",
+                                  "100000", "-o", (results / "out").string()});
+  const auto writes = [&] {
+    for (const auto& entry : fs::recursive_directory_iterator(results))
+      if (entry.path().filename() == "frames" && !fs::is_empty(entry.path())) return true;
+    return false;
+  };
+  for (int k = 0; k < 1000 && !writes(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ::kill(child, GetParam().signal);
+  const Ended end = wait_for(child, log);
+  EXPECT_EQ(end.code, 6) << end.signal << end.complained;
+  EXPECT_NE(end.complained.find(GetParam().word), std::string::npos) << end.complained;
+  EXPECT_NE(end.complained.find("while writing the results; what was computed is in " + (results / "out.part-").string()),
+            std::string::npos)
+      << end.complained;
+  EXPECT_FALSE(fs::exists(results / "out"));
+}
 INSTANTIATE_TEST_SUITE_P(Signals, Stopped, testing::Values(Stop{SIGINT, "Ctrl-C"}, Stop{SIGTERM, "SIGTERM"}, Stop{SIGHUP, "SIGHUP"}));
 
 TEST(Ending, ARunUnderNohupOutlivesItsTerminal) {
