@@ -146,6 +146,23 @@ TEST(Nonlinear, ExponentsOfAMotionThatComesToRestAreDoubted) {
   }
 }
 
+// A ball that stays on a table of a compliant contact, whose deviations fall by e^-60 in a period, and by e^-6 in a tenth of it.
+TEST(Nonlinear, ExponentsOfNeighboursLostInRoundingAreDoubted) {
+  const VibratingTable table;
+  std::string scene = table.scene(1.02 * table.birth(), 1);
+  const std::string rigid = "model: impact, restitution: 0.5";
+  const std::size_t at = scene.find(rigid);
+  ASSERT_NE(at, std::string::npos) << scene;
+  scene.replace(at, rigid.size(), "normal: {hunt-crossley: {restitution: 0.5, stiffness: 1e8 N/m^1.5}}");
+  for (const char* every : {"2*pi/omega", "0.1*2*pi/omega"}) {
+    const SweepFolder folder;
+    const Followed done = follow_study(
+        folder, scene,
+        std::string("set: {gamma: 0.5}\nlyapunov: {exponents: 2, every: ") + every + ", over: 20*2*pi/omega, transient: 20*2*pi/omega}\n");
+    EXPECT_EQ(done.values.at(0).reason.find("shorten lyapunov.every") != std::string::npos, every[0] == '2') << done.values[0].reason;
+  }
+}
+
 // Near the doubling they are real and apart, and neighbours take the time that is not counted to turn to the slower one.
 TEST(Nonlinear, ExponentsOfABouncingBallAreThoseOfItsRealMultipliers) {
   const VibratingTable table;

@@ -55,6 +55,9 @@ class Neighbours {
     }
   }
 
+  /// Why exponents are in doubt; empty if they are not.
+  const std::string& doubt() const { return doubt_; }
+
   /// Integrates one interval. @returns the logarithm of each growth
   VectorXd grow(double until) {
     const MatrixXd before = set_apart();
@@ -80,15 +83,19 @@ class Neighbours {
                                      " here: constraints and closed contacts take the others; ask for at most as many exponents"};
   }
 
-  /// @throws OrbitTrouble  a neighbour is nearly as close to the motion as numbers of the machine are to each other
-  void require_distinct(double t) const {
-    constexpr double least = 10;
+  /// @throws OrbitTrouble  a neighbour is where the motion is
+  void require_distinct(double t) {
+    constexpr double least = 1000;  // times rounding: three digits of the distance are left
     const double rounding = std::numeric_limits<double>::epsilon() * main_.state().y.head(scales_.size()).cwiseQuotient(scales_).norm();
-    for (Index j = 0; j < R_.cols(); ++j)
-      if (!(R_(j, j) * run_.distance > least * rounding) || !std::isfinite(R_(j, j)))
-        throw OrbitTrouble{"failed", "t = " + number_text(t, 6) + " s: the neighbour of exponent " + std::to_string(j + 1) +
-                                         " can no longer be distinguished from the motion; shorten lyapunov.every" +
-                                         (j > 0 ? ", or ask for at most " + counted(static_cast<std::size_t>(j), "exponent") : "")};
+    for (Index j = 0; j < R_.cols(); ++j) {
+      const std::string lost = "t = " + number_text(t, 6) + " s: the neighbour of exponent " + std::to_string(j + 1) +
+                               " can no longer be distinguished from the motion";
+      const std::string remedy =
+          "shorten lyapunov.every" + (j > 0 ? ", or ask for at most " + counted(static_cast<std::size_t>(j), "exponent") : "");
+      if (!(R_(j, j) > 0) || !std::isfinite(R_(j, j))) throw OrbitTrouble{"failed", lost + "; " + remedy};
+      if (doubt_.empty() && !(R_(j, j) * run_.distance > least * rounding))
+        doubt_ = lost + ", so the exponents from this one on are those of rounding; " + remedy;
+    }
   }
 
   VectorXd distance(const Integrator& neighbour) const {
@@ -114,6 +121,7 @@ class Neighbours {
   const std::function<bool()>& go_on_;
   VectorXd scales_;
   MatrixXd Q_, R_;
+  std::string doubt_;
   std::vector<std::unique_ptr<Integrator>> apart_;
 };
 
@@ -153,8 +161,8 @@ Exponent mean_of(const std::vector<VectorXd>& logs, Index j, double interval) {
 
 }  // namespace
 
-void lyapunov_exponents(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on,
-                        Orbit& out) {
+std::string lyapunov_exponents(const Model& model, Integrator& integrator, const LyapunovRun& run, const std::function<bool()>& go_on,
+                               Orbit& out) {
   const double begin = integrator.state().t, from = begin + static_cast<double>(run.transient) * run.interval;
   const long intervals = run.intervals, every = (intervals + most_running - 1) / most_running;
   Neighbours neighbours(model, integrator, run, go_on);
@@ -170,6 +178,7 @@ void lyapunov_exponents(const Model& model, Integrator& integrator, const Lyapun
     out.running.emplace_back(now.data(), now.data() + now.size());
   }
   for (Index j = 0; j < sum.size(); ++j) out.exponents.push_back(mean_of(logs, j, run.interval));
+  return neighbours.doubt();
 }
 
 }  // namespace pintle

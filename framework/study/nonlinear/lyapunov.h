@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "framework/mechanism/model.h"
 #include "framework/study/nonlinear/orbit.h"
@@ -17,7 +18,8 @@ struct LyapunovRun {
 
 /// The largest Lyapunov exponents of the motion from the integrator's state on. After each interval the neighbours are orthogonalised and
 /// brought back to the distance (Benettin and others, 1980). The integrator moves to the end.
+/// @returns why they are in doubt; empty if they are not
 /// @throws OrbitTrouble  it cannot continue, or the phase space has fewer dimensions
-void lyapunov_exponents(const Model&, Integrator&, const LyapunovRun&, const std::function<bool()>& go_on, Orbit& out);
+std::string lyapunov_exponents(const Model&, Integrator&, const LyapunovRun&, const std::function<bool()>& go_on, Orbit& out);
 
 }  // namespace pintle

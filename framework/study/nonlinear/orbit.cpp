@@ -270,12 +270,11 @@ class Following {
                           .intervals = times_.intervals,
                           .distance = question_.lyapunov->distance};
     neighbours_begin_ = integrator.state().t;
-    lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
+    out_.reason = lyapunov_exponents(model_, integrator, run, go_on_, out_.orbit);
     if (has_rested(model_.system, integrator.impacts(), *neighbours_begin_))
       out_.reason =
           "a rigid contact stayed closed for a time, where deviations across it vanish: exponents are -infinity, and their finite values "
-          "show "
-          "only the effect of rounding";
+          "show only the effect of rounding";
   }
 
   const OrbitQuestion& question_;
