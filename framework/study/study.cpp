@@ -5,9 +5,11 @@
 #include <optional>
 
 #include "framework/common/file_names.h"
+#include "framework/common/words.h"
 #include "framework/scene/text_file.h"
 #include "framework/scene/yaml/keys.h"
 #include "framework/scene/yaml/override.h"
+#include "framework/study/measures/measure_vocabulary.h"
 #include "framework/study/measures/measure_words.h"
 
 namespace pintle {
@@ -135,6 +137,15 @@ void require_other_names(const std::vector<Measure>& measures, const std::vector
 
 namespace {
 
+/// The statistic, or "time of" or "frequency of", that the words begin with. Empty if there is none.
+std::string statistic_at_front(const std::string& text) {
+  Words words(text);
+  words.skip_articles();
+  for (const StatisticWord& s : statistic_words)
+    if (words.take(s.words)) return s.words;
+  return words.take_any({"time of", "instant of", "frequency of", "dominant frequency of", "main frequency of"});
+}
+
 /// What the words ask for by themselves; nothing if they cannot be read.
 std::optional<Asked> read_alone(Measure curve, const std::string& words, const Scene& scene) {
   curve.words = words;
@@ -148,14 +159,17 @@ std::optional<Asked> read_alone(Measure curve, const std::string& words, const S
 /// A curve is a whole time history, so its words have no statistic and no time.
 void require_history(const Node& entry, const Measure& curve, const std::string& words, const Scene& scene) {
   const std::string remedy = "; each case keeps the whole history: leave these words out, or ask for the number under measure";
-  if (const auto asked = read_alone(curve, words, scene)) {
-    const std::string statistic = statistic_at_front(words);
-    if ((asked->statistic != Statistic::none || asked->frequency) && !statistic.empty())
-      entry.fail("\"" + words + "\" asks for one number by \"" + statistic + "\"" + remedy);
-    if (asked->instant || asked->last > 0 || asked->from > 0 || asked->to < std::numeric_limits<double>::infinity())
+  const auto reject_time = [&](const Asked& asked) {
+    if (asked.instant || asked.last > 0 || asked.from > 0 || asked.to < std::numeric_limits<double>::infinity())
       entry.fail("\"" + words + "\" names an instant or a window of time" + remedy);
+  };
+  if (const auto alone = read_alone(curve, words, scene)) {
+    const std::string statistic = statistic_at_front(words);
+    if ((alone->statistic != Statistic::none || alone->frequency) && !statistic.empty())
+      entry.fail("\"" + words + "\" asks for one number by \"" + statistic + "\"" + remedy);
+    reject_time(*alone);
   }
-  read_measure(curve, scene);
+  reject_time(read_measure(curve, scene));
 }
 
 }  // namespace

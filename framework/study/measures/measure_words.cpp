@@ -393,14 +393,6 @@ bool cumulative(What what) {
   return what == What::lost || what == What::work || what == What::impacts || what == What::free_flight || what == What::contact_time;
 }
 
-std::string statistic_at_front(const std::string& text) {
-  Words words(text);
-  words.skip_articles();
-  for (const StatisticWord& s : statistic_words)
-    if (words.take(s.words)) return s.words;
-  return words.take_any({"time of", "instant of", "frequency of", "dominant frequency of", "main frequency of"});
-}
-
 Asked read_measure(const Measure& measure, const Scene& scene) { return Reading(measure, scene).read(); }
 
 }  // namespace pintle

@@ -53,9 +53,6 @@ struct Asked {
 /// Whether it accumulates over time: without a statistic, its change in the window is meant.
 bool cumulative(What);
 
-/// The statistic, or "time of" or "frequency of", that the words begin with. Empty if there is none.
-std::string statistic_at_front(const std::string& words);
-
 /// @throws SceneError  the words cannot be read, name something the scene lacks, or ask for something that the measure's analysis does not
 /// provide; the message lists what exists
 Asked read_measure(const Measure&, const Scene&);
