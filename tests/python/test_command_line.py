@@ -74,9 +74,9 @@ class CommandLine(unittest.TestCase):
         self.assertEqual([f"{n} [{table.unit(n)}]" if table.unit(n) else n for n in table.names], header)
         numpy.testing.assert_array_equal(table.data, data)
 
-    def runs_alike(self, name):
-        out = self.by_program("run", examples / f"{name}.yaml")
-        result = pintle.load(examples / f"{name}.yaml").run(check=False)
+    def runs_alike(self, file):
+        out = self.by_program("run", file)
+        result = pintle.load(file).run(check=False)
         self.same(result, out / "trajectory.csv")
         self.same(result.ledger, out / "ledger.csv")
         told = json.loads((out / "run.json").read_text())
@@ -92,16 +92,16 @@ class CommandLine(unittest.TestCase):
     def test_runs(self):
         for name in short_runs:
             with self.subTest(example=name):
-                self.runs_alike(name)
+                self.runs_alike(examples / f"{name}.yaml")
 
     @unittest.skipUnless(nightly, "minutes")
     def test_all_runs(self):
-        for file in sorted(examples.glob("*.yaml")):
+        for file in [f for folder in ("", "paper", "nonlinear") for f in sorted((examples / folder).glob("*.yaml"))]:
             scene = pintle.load(file).as_dict()
             if file.stem in short_runs or "run" not in scene or file.stem.startswith("statics") or lacks_masses(scene):
                 continue
             with self.subTest(example=file.stem):
-                self.runs_alike(file.stem)
+                self.runs_alike(file)
 
     @unittest.skipUnless(nightly, "minutes")
     def test_all_other_questions(self):
