@@ -15,8 +15,9 @@
 
 from ._core import version as __version__
 from .errors import AssemblyError, Error, ModelWarning, RunError, SceneError
+from .mechanism import Element, Mechanism
 from .results import (
-    BodyCase, BodyModes, Effort, Event, Impact, InverseResult, LinearMode, Mesh, Modes, Rest, Result, Simulation, SmallMotion, StaticCase
+    BodyCase, BodyModes, Effort, Event, Impact, InverseResult, LinearMode, Mesh, Modes, Page, Rest, Result, Simulation, SmallMotion, StaticCase
 )
 from .scene import Scene, load, parse, trust
 from .studies import (
@@ -25,8 +26,8 @@ from .studies import (
 from .tables import Table, TextTable
 
 __all__ = [
-    "AssemblyError", "BodyCase", "BodyModes", "Effort", "Error", "Event", "FitResult", "Impact", "InverseResult", "LinearMode", "Mesh",
-    "ModelWarning", "Modes", "NonlinearResult", "Rest", "Result", "RunError", "Scene", "SceneError", "SensitivityResult", "Simulation",
+    "AssemblyError", "BodyCase", "BodyModes", "Effort", "Element", "Error", "Event", "FitResult", "Impact", "InverseResult", "LinearMode", "Mechanism", "Mesh",
+    "ModelWarning", "Modes", "NonlinearResult", "Page", "Rest", "Result", "RunError", "Scene", "SceneError", "SensitivityResult", "Simulation",
     "SmallMotion", "StaticCase", "SweepResult", "Table", "TextTable", "TradeoffResult", "fit", "load", "nonlinear", "parse", "sensitivity",
     "sweep", "tradeoff", "trust",
 ]

@@ -35,6 +35,16 @@ class Event(NamedTuple):
     did: str
 
 
+class Page:
+    """A page that a notebook shows in a frame of its own."""
+
+    def __init__(self, text, height):
+        self.text, self.height = text, height
+
+    def _repr_html_(self):
+        return f'<iframe srcdoc="{html.escape(self.text)}" style="width: 100%; height: {self.height}px; border: 0"></iframe>'
+
+
 class Result(Table):
     """Result of a run: `result["crank.angle"]` is a column of its trajectory."""
 
@@ -100,6 +110,13 @@ class Result(Table):
             folder = Path(place) / "run"
             self.write(folder)
             Path(file).write_text(_core.report(str(folder)), encoding="utf-8")
+
+    def view(self, height=720):
+        """The page of `report`, shown where a notebook shows results."""
+        with tempfile.TemporaryDirectory() as place:
+            page = Path(place) / "page.html"
+            self.report(page)
+            return Page(page.read_text(encoding="utf-8"), height)
 
     def _rows(self):
         core = self._core

@@ -51,7 +51,8 @@ class Stubs(unittest.TestCase):
 
     def parameters(self, function):
         a = function.args
-        return [x.arg for x in a.posonlyargs + a.args] + ([a.vararg.arg] if a.vararg else []) + [x.arg for x in a.kwonlyargs]
+        return [x.arg for x in a.posonlyargs + a.args] + ([a.vararg.arg] if a.vararg else []) + [x.arg for x in a.kwonlyargs] + (
+            [a.kwarg.arg] if a.kwarg else [])
 
     def test_the_same_names(self):
         stubbed = {n.name for n in self.stubs.body if isinstance(n, (ast.ClassDef, ast.FunctionDef))}

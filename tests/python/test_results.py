@@ -22,6 +22,45 @@ def is_there(module):
     return True
 
 
+class Objects(unittest.TestCase):
+    """A scene built from objects is the scene of the same dict."""
+
+    built = pintle.Mechanism(gravity=[0, -9.81], run={"until": "0.1 s", "tolerance": 1e-10})
+    rod = built.add_body("rod_1", rigid={"mass": numpy.float64(1), "inertia": 0.1}, points={"O_1": (-1, 0)})
+    hinge = built.add_joint("hinge", revolute=[built.ground, rod["O_1"]])
+    limits = built.add_event("turned", when="rod_1.angle < -0.04 rad", do={"stop": True})
+
+    def test_it_is_that_of_the_dict(self):
+        self.assertEqual(self.built.as_dict(), {
+            "gravity": [0, -9.81], "run": {"until": "0.1 s", "tolerance": 1e-10},
+            "bodies": {"rod_1": {"rigid": {"mass": 1.0, "inertia": 0.1}, "points": {"O_1": [-1, 0]}}},
+            "joints": {"hinge": {"revolute": ["ground", "rod_1.O_1"]}},
+            "events": {"turned": {"when": "rod_1.angle < -0.04 rad", "do": {"stop": True}}},
+        })
+        result = self.built.scene().run()
+        self.assertEqual(result.events[0].event, "turned")
+        self.assertAlmostEqual(result["rod_1.angle"][-1], -0.04, delta=1e-8)
+
+    def test_underscores_of_keywords_are_spaces_and_elements_are_names(self):
+        coupled = pintle.Mechanism(run={"until": 1}, ground={"points": {"P": [0, 1]}})
+        a = coupled.add_body("a")
+        coupled.add_force("spring", spring=[coupled.ground["P"], a], free_length=coupled.add_parameter("l_0", "1 m"))
+        coupled.start(a, x=0)
+        self.assertEqual(coupled.as_dict()["forces"], {"spring": {"spring": ["ground.P", "a"], "free length": "l_0"}})
+        self.assertEqual(coupled.as_dict()["start"], {"a": {"x": 0}})
+
+    def test_what_is_wrong_is_told_at_once(self):
+        with self.assertRaisesRegex(KeyError, "no point .*O_2.*it has O_1"):
+            self.rod["O_2"]
+        with self.assertRaisesRegex(ValueError, "already a body called"):
+            self.built.add_body("rod_1")
+        with self.assertRaisesRegex(pintle.SceneError, "bodies.b.rigid.mass") as caught:
+            wrong = pintle.Mechanism(run={"until": 1})
+            wrong.add_body("b", rigid={"mass": "1 m", "inertia": 1})
+            wrong.scene()
+        self.assertEqual(caught.exception.key, "bodies.b.rigid.mass")
+
+
 class Columns(unittest.TestCase):
     def setUp(self):
         self.result = pintle.parse(pendulum).run()
@@ -207,6 +246,15 @@ class Questions(unittest.TestCase):
         self.assertEqual(modes.natural.mass.shape, (3, 2))
         ratio = (4.694091 / 1.875104) ** 2  # of roots of 1 + cos x cosh x = 0
         self.assertAlmostEqual(modes.frequencies[1] / modes.frequencies[0] / ratio, 1, delta=2e-3)
+
+
+class Views(unittest.TestCase):
+    def test_a_notebook_shows_the_page_of_the_report(self):
+        page = worn.run().view(height=500)
+        self.assertIn("<html", page.text)
+        shown = page._repr_html_()
+        self.assertTrue(shown.startswith('<iframe srcdoc="') and "height: 500px" in shown)
+        self.assertNotIn("<html", shown)  # escaped
 
 
 if __name__ == "__main__":
