@@ -176,20 +176,8 @@ void foresee_room(const Options& options, const Scene& scene, Model& model) {
     model.warnings.push_back(impossible.what());
   }
 }
-/// Warns of bodies without mass, on which forces have no effect.
-std::vector<std::string> massless_bodies(const Scene& scene) {
-  std::vector<std::string> out;
-  for (const SceneBody& b : scene.bodies)
-    if (!b.elastic && (b.mass == 0 || b.inertia == 0)) out.push_back("\"" + b.name + "\"");
-  return out;
-}
-
 /// Checks a scene that allows kinematics but no computation of forces.
-int check_kinematics(const Options& options, Waiting& waiting, Scene scene, const std::vector<std::string>& massless) {
-  scene.warnings.push_back(
-      some_of(massless, false) + (massless.size() == 1 ? " lacks" : " lack") +
-      " mass or inertia: only `pintle kinematics` can run this scene (and `pintle statics`, with masses or without gravity)");
-  scene = ready_for_kinematics(std::move(scene));
+int check_kinematics(const Options& options, Waiting& waiting, const Scene& scene) {
   const Model model = build(scene);
   const Assembly assembly = assemble(scene, model);
   waiting.end();
@@ -209,7 +197,7 @@ int check(const Options& options) {
   require_run(read);
   Scene scene = with_pieces(std::move(read));
   const FrameCount frames(scene);
-  if (const auto massless = massless_bodies(scene); !massless.empty()) return check_kinematics(options, waiting, scene, massless);
+  if (const auto moved = for_kinematics_alone(scene)) return check_kinematics(options, waiting, *moved);
   now_doing("building the model");
   const double begin = processor_time();
   Model model = build_with_preliminary_run(scene);

@@ -52,9 +52,11 @@ std::string check(const SceneSource& source) {
   Scene scene = source.scene;
   require_run(scene);
   scene = with_pieces(std::move(scene));
-  const Model model = build_with_preliminary_run(scene);
+  const std::optional<Scene> moved = for_kinematics_alone(scene);
+  if (moved) scene = *moved;
+  const Model model = moved ? build(scene) : build_with_preliminary_run(scene);
   const Assembly assembly = assemble(scene, model);
-  return check_json(scene, model, assembly, estimate_cost(scene, model, assembly));
+  return check_json(scene, model, assembly, moved ? CostEstimate{} : estimate_cost(scene, model, assembly));
 }
 
 void trust(const std::vector<std::string>& folders, bool geo) {

@@ -1,6 +1,11 @@
 #include "framework/build/inertia_defaults.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
+
+#include "framework/common/some_of.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -32,6 +37,18 @@ Scene ready_for_kinematics(Scene scene) {
   }
   scene.output.stress.clear();
   return scene;
+}
+
+std::optional<Scene> for_kinematics_alone(const Scene& scene) {
+  std::vector<std::string> massless;
+  for (const SceneBody& b : scene.bodies)
+    if (!b.elastic && (b.mass == 0 || b.inertia == 0)) massless.push_back(quoted(b.name));
+  if (massless.empty()) return {};
+  Scene out = ready_for_kinematics(scene);
+  out.warnings.push_back(
+      some_of(massless, false) + (massless.size() == 1 ? " lacks" : " lack") +
+      " mass or inertia: only `pintle kinematics` can run this scene (and `pintle statics`, with masses or without gravity)");
+  return out;
 }
 
 }  // namespace pintle

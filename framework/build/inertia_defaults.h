@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "framework/scene/scene.h"
 
 /// Scenes for analyses that need less data than a run.
@@ -12,5 +14,8 @@ Scene ready_for_statics(Scene);
 /// For kinematics: rigid bodies without mass or inertia get defaults, which do not change a motion imposed by drivers, and bodies with
 /// modes stay rigid.
 Scene ready_for_kinematics(Scene);
+
+/// If bodies lack mass or inertia, so that forces cannot be computed: the scene ready for kinematics, with a warning. Otherwise nothing.
+std::optional<Scene> for_kinematics_alone(const Scene&);
 
 }  // namespace pintle
