@@ -130,6 +130,7 @@ std::string model_description(const FmuContents& contents, const std::string& id
                               {"canGetAndSetFMUState", "true"},
                               {"canSerializeFMUState", "true"},
                               {"canHandleVariableCommunicationStepSize", "true"},
+                              {"mightReturnEarlyFromDoStep", "true"},
                               {"hasEventMode", "true"}});
   write_units(contents, to);
   to.open("LogCategories");

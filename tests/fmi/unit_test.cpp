@@ -37,6 +37,7 @@ TEST(Fmu, DescribesItselfAsTheStandardAsks) {
   const auto& kind = root.child("CoSimulation")->attributes;
   EXPECT_TRUE(is_identifier(kind.at("modelIdentifier")));
   EXPECT_EQ(kind.at("hasEventMode"), "true");
+  EXPECT_EQ(kind.at("mightReturnEarlyFromDoStep"), "true");  // at an event
   EXPECT_EQ(kind.at("canHandleVariableCommunicationStepSize"), "true");
 
   std::map<std::string, std::map<std::string, std::string>> units;
