@@ -170,7 +170,10 @@ TEST(BadScene, YamlItselfIsJudged) {
       {"0.01 mm", "!!float 0.01", "scene.yaml:4: ", {"tag"}},
       {"law: speed*t", "law: if(t<1, 0, 1)", "scene.yaml:25: ", {"in quotes"}},
       {"run:", "---\nrun:", "scene.yaml:", {"second document"}},
+      {"title: Slider-crank", "title: \"\\x01\"", "scene.yaml:1: ", {"control character number 1"}},
+      {"run:", "output: {points: [\"\\e\"]}\nrun:", "scene.yaml:", {"control character number 27"}},
   });
+  EXPECT_EQ(refusal_of(with("title: Slider-crank", "title: \"a\\tb\\nc\"")), "accepted");
 }
 
 TEST(BadScene, ExpressionWithCommasInBracesIsToldToUseQuotes) {

@@ -1,6 +1,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -27,6 +28,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, {.kind = Yaml::Kind::nothing}); }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
     reject_tag(mark, tag);
+    reject_control_characters(mark, value);
     if (!open_.empty() && open_.back().yaml.kind == Yaml::Kind::map && !open_.back().has_key)
       key(mark, value);
     else
@@ -55,6 +57,11 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void reject_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!") fail(mark, "the tag " + tag + " is not supported; leave it out");
+  }
+  /// No XML file can hold them, and a terminal obeys them.
+  void reject_control_characters(const YAML::Mark& mark, const std::string& text) const {
+    const auto bad = std::ranges::find_if(text, [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r'; });
+    if (bad != text.end()) fail(mark, "a text contains the control character number " + std::to_string(int{*bad}) + "; leave it out");
   }
   void key(const YAML::Mark& mark, const std::string& text) {
     Open& map = open_.back();
