@@ -137,6 +137,7 @@ constexpr const char* what_nonlinear_writes =
     "  section.csv             one row per return: its time and what was recorded\n"
     "  values.csv              one row per parameter value: period, impacts, exponents\n"
     "  lyapunov.csv            the estimates of the exponents over time\n"
+    "  nonlinear.json          the same, for programs\n"
     "  section.svg             the section, or the diagram over the parameter, with the exponents below it\n"
     "  study.yaml, scene.yaml, journal-0.txt   as for sweep; after an interruption, the same command continues from there\n"
     "Exit code 4: the run failed for every parameter value. Others: see pintle --help\n";

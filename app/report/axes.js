@@ -21,6 +21,8 @@ function ticksBetween(least, most, wanted) {
   return out;
 }
 
+const shortened = (text) => (text.length > 26 ? `${text.slice(0, 12)}…${text.slice(-12)}` : text);
+
 /// A column as places from 0 to 1: numbers straight or by their logarithm, words in their order.
 class ColumnScale {
   constructor(column, rows, logarithmic = false) {
@@ -52,7 +54,7 @@ class ColumnScale {
 
   /// [place, text] of each tick.
   ticks(wanted) {
-    if (this.words) return this.words.slice(0, 30).map((word) => [this.at(word), word]);
+    if (this.words) return this.words.slice(0, 30).map((word) => [this.at(word), shortened(String(word ?? "–"))]);
     const all = ticksBetween(this.least, this.most, wanted);
     if (this.logarithmic) {
       const whole = all.filter((x) => Math.abs(x - Math.round(x)) < 1e-9);

@@ -141,7 +141,7 @@ const errors = [];
 window.addEventListener("error", (event) => errors.push(String(event.message)));
 window.addEventListener("securitypolicyviolation", (event) => errors.push(`blocked: ${event.violatedDirective}`));
 const data = JSON.parse(byId("data").textContent);
-const page = data.rows ? new StudyPage(data) : new Page(data);
+const page = data.tables ? new StudyPage(data) : new Page(data);
 page.start();
 if (location.hash === "#check")
   queueMicrotask(() => reportShown(page));  // once plots are drawn

@@ -1,21 +1,27 @@
 "use strict";
 
-// The page of a table: sweeps, trade-offs, modes. Rows as lines, as points and as rows, which point to each other.
+// The page of tables: sweeps, fits, trade-offs, sections, modes. The rows of one table as lines, as points and as rows, which point to each other.
 
 class StudyPage {
   constructor(data) {
     this.data = data;
-    this.rows = data.rows;
-    this.columns = data.columns.map((column, index) => ({...column, index, numeric: this.isNumeric(index)}));
+    this.use(data.tables[0]);
+  }
+
+  /// Shows this table.
+  use(table) {
+    this.rows = table.rows;
+    this.all = table.all;
+    this.columns = table.columns.map((column, index) => ({...column, index, numeric: this.isNumeric(index)}));
     this.varying = this.columns.filter((column) => new Set(this.rows.map((row) => row[column.index])).size > 1);
     this.brushes = new Map();
     this.sorted = {index: 0, ascending: true};
     const numeric = this.varying.filter((column) => column.numeric && column.name !== "case");
     const named = (name, otherwise) => this.columns.find((column) => column.name === name) ?? otherwise ?? this.columns[0];
-    this.x = named(data.x, numeric[0]);
-    this.y = named(data.y, numeric[1]);
-    this.colour = named(data.colour, numeric.at(-1));
-    this.logarithmic = {x: data.logarithmic, y: data.logarithmic};
+    this.x = named(table.x, numeric[0]);
+    this.y = named(table.y, numeric.find((column) => column !== this.x));
+    this.colour = named(table.colour, numeric.at(-1));
+    this.logarithmic = {x: table.logarithmic, y: table.logarithmic};
   }
 
   isNumeric(index) {
@@ -29,21 +35,34 @@ class StudyPage {
     byId("study").hidden = false;
     showHead(this.data.title, this.data.run);
     showFacts(this.data.run);
-    byId("study-count").textContent = this.rows.length < this.data.all ?
-        `${this.rows.length} of ${this.data.all} rows: evenly spaced ones, and those with an extreme value` :
-        `${this.rows.length} rows`;
+    this.tableChooser();
     byId("study-clear").onclick = () => (this.brushes.clear(), this.draw());
-    for (const which of ["x", "y", "colour"]) this.chooser(which);
-    for (const which of ["x", "y"]) this.logChooser(which);
     byId("study").addEventListener("pointerover", ({target}) => this.point(target.closest("[data-row]")?.dataset.row));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     new ResizeObserver(() => this.width !== byId("study").clientWidth && this.draw()).observe(byId("study"));
+    this.choose();
+  }
+
+  tableChooser() {
+    const select = byId("study-table-name");
+    select.append(...this.data.tables.map(({file}, index) => element("option", {value: index, textContent: file})));
+    select.parentElement.hidden = this.data.tables.length < 2;
+    select.onchange = () => (this.use(this.data.tables[select.value]), this.choose());
+  }
+
+  /// Fills what chooses from this table, and draws.
+  choose() {
+    byId("study-count").textContent = this.rows.length < this.all ?
+        `${this.rows.length} of ${this.all} rows: evenly spaced ones, and those with an extreme value` :
+        `${this.rows.length} rows`;
+    for (const which of ["x", "y", "colour"]) this.chooser(which);
+    for (const which of ["x", "y"]) this.logChooser(which);
     this.draw();
   }
 
   chooser(which) {
     const select = byId(`study-${which}`);
-    select.append(...this.columns.map(({name, index}) => element("option", {value: index, textContent: name})));
+    select.replaceChildren(...this.columns.map(({name, index}) => element("option", {value: index, textContent: name})));
     select.value = this[which].index;
     select.onchange = () => ((this[which] = this.columns[select.value]), this.draw());
   }

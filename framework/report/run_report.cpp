@@ -172,7 +172,7 @@ std::string report_page(const fs::path& directory, const ReportLimits& limits) {
   if (const auto out = table_page(directory, limits.rows, limits.text)) return *out;
   throw ResultsError(directory.string() + ": contains no results" +
                      (fs::is_directory(directory) ? "" : ", because there is no such folder") +
-                     "; name a folder written by `pintle run`, kinematics, inverse, sweep, tradeoff, linearize or modes" +
+                     "; name a folder written by `pintle run`, statics, kinematics, inverse, linearize, modes, sweep, fit, sensitivity, nonlinear or tradeoff" +
                      (fs::exists(directory / "trajectory.csv") ? ". It has a trajectory.csv: pintle plot shows its columns" : ""));
 }
 

@@ -17,17 +17,31 @@ namespace {
 namespace fs = std::filesystem;
 using TableJson = nlohmann::ordered_json;
 
-/// A kind of tabular results, and the columns shown first.
+/// A table of results, and the columns shown first.
+struct TableFile {
+  const char* file;
+  const char* x = "";       ///< empty: the first that vary between rows
+  const char* y = "";       ///< likewise
+  const char* colour = "";  ///< likewise
+  bool logarithmic = false;
+};
+/// A kind of tabular results; of its tables, those that exist are shown.
 struct TableKind {
   const char* name;
-  const char *x, *y;   ///< empty: the first that vary between rows
-  const char* colour;  ///< likewise
-  bool logarithmic;
+  std::vector<TableFile> tables;
 };
-constexpr TableKind kinds[] = {{"sweep", "", "", "", false},
-                               {"tradeoff", "time", "error", "", true},
-                               {"linearized", "frequency", "damping ratio", "kind", false},
-                               {"modes", "mode", "frequency", "", false}};
+const std::vector<TableKind>& kinds() {
+  static const std::vector<TableKind> all{
+      {"sensitivity", {{"sensitivity.csv", "parameter", "of the tolerance", "measure"}, {"sweep.csv"}}},
+      {"fit", {{"fit.csv", "case", "goal", "phase"}, {"path.csv"}}},
+      {"nonlinear",
+       {{"section.csv", "", "", "direction"}, {"values.csv", "", "period"}, {"orbits.csv", "", "", "stability"}, {"lyapunov.csv", "t"}}},
+      {"sweep", {{"sweep.csv"}}},
+      {"tradeoff", {{"tradeoff.csv", "time", "error", "", true}}},
+      {"linearized", {{"linearized.csv", "frequency", "damping ratio", "kind"}}},
+      {"modes", {{"modes.csv", "mode", "frequency"}, {"reduced.csv", "mode", "frequency"}}}};
+  return all;
+}
 
 /// The number, if the whole field is one.
 TableJson value_of(const std::string& field) {
@@ -56,15 +70,16 @@ std::set<std::size_t> kept(const std::vector<TableJson>& rows, std::size_t colum
   return out;
 }
 
-/// A name without its unit, if there is one.
-std::string first_name(const TableJson& json, const char* key) {
-  if (!json.contains(key) || json[key].empty()) return "";
-  const TableJson& of = json[key];
-  return column_name(of.is_array() ? of[0].get<std::string>() : of.items().begin().key()).name;
+/// The names of the description's list or object under the key, without units.
+std::vector<std::string> names_in(const TableJson& json, const char* key) {
+  std::vector<std::string> out;
+  if (!json.contains(key)) return out;
+  for (const auto& [name, value] : json[key].items())
+    out.push_back(column_name(json[key].is_array() ? value.get<std::string>() : name).name);
+  return out;
 }
 
-std::string table_page_of(const TableKind& kind, const Description& results, const fs::path& file, std::size_t most_rows,
-                          std::size_t most_text) {
+TableJson table_of(const TableFile& kind, const TableJson& description, const fs::path& file, std::size_t most_rows) {
   CsvReader reader(file);
   std::vector<TableJson> rows;
   for (std::vector<std::string> fields; reader.next(fields);) {
@@ -77,31 +92,41 @@ std::string table_page_of(const TableKind& kind, const Description& results, con
     columns.push_back({{"name", column.name}, {"unit", column.unit}});
   }
   for (const std::size_t r : kept(rows, reader.header().size(), most_rows)) shown.push_back(std::move(rows[r]));
-  const bool sweep = kind.name == std::string("sweep");
-  std::string title = results.json.value("title", std::string());
-  if (title.empty()) title = results.json.value("file", std::string(kind.name));
-  const TableJson data{{"title", title},
-                       {"run", facts(results, most_text)},
-                       {"columns", columns},
-                       {"rows", shown},
-                       {"all", rows.size()},
-                       {"x", sweep ? first_name(results.json, "varied") : kind.x},
-                       {"y", sweep ? first_name(results.json, "measures") : kind.y},
-                       {"colour", kind.name == std::string("tradeoff") ? columns[1]["name"].get<std::string>() : kind.colour},
-                       {"logarithmic", kind.logarithmic}};
-  return page(title, json_text(data, -1));
+  std::vector<std::string> first = names_in(description, "varied");
+  if (first.size() > 1) first.resize(1);
+  for (const char* key : {"measures", "recorded"})
+    for (const std::string& name : names_in(description, key)) first.push_back(name);
+  first.resize(2);
+  if (*kind.x) first[0] = kind.x;
+  if (*kind.y) first[1] = kind.y;
+  return {{"file", file.filename().string()},
+          {"columns", columns},
+          {"rows", shown},
+          {"all", rows.size()},
+          {"x", first[0]},
+          {"y", first[1]},
+          {"colour", kind.logarithmic ? columns[1]["name"].get<std::string>() : kind.colour},
+          {"logarithmic", kind.logarithmic}};
 }
 
 }  // namespace
 
 bool has_table_page(const fs::path& directory) {
-  return std::ranges::any_of(kinds, [&](const TableKind& kind) { return fs::exists(directory / (std::string(kind.name) + ".json")); });
+  return std::ranges::any_of(kinds(), [&](const TableKind& kind) { return fs::exists(directory / (std::string(kind.name) + ".json")); });
 }
 
 std::optional<std::string> table_page(const fs::path& directory, std::size_t most_rows, std::size_t most_text) {
-  for (const TableKind& kind : kinds)
-    if (const auto results = description(directory, kind.name))
-      return table_page_of(kind, *results, directory / (std::string(kind.name) + ".csv"), most_rows, most_text);
+  for (const TableKind& kind : kinds()) {
+    const auto results = description(directory, kind.name);
+    if (!results) continue;
+    TableJson tables = TableJson::array();
+    for (const TableFile& table : kind.tables)
+      if (fs::exists(directory / table.file)) tables.push_back(table_of(table, results->json, directory / table.file, most_rows));
+    if (tables.empty()) throw ResultsError(directory.string() + ": has " + results->file.filename().string() + " but no table");
+    std::string title = results->json.value("title", std::string());
+    if (title.empty()) title = results->json.value("file", std::string(kind.name));
+    return page(title, json_text(TableJson{{"title", title}, {"run", facts(*results, most_text)}, {"tables", tables}}, -1));
+  }
   return {};
 }
 

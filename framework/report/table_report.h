@@ -7,10 +7,10 @@
 
 namespace pintle {
 
-/// Whether the folder has such a table.
+/// Whether the folder has such tables.
 bool has_table_page(const std::filesystem::path& directory);
 
-/// The table of a `sweep`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder has none.
+/// The tables of a `sweep`, `fit`, `sensitivity`, `nonlinear`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder has none.
 /// @param most_rows  of a longer table, evenly spaced rows are kept, and those with the least or greatest value of a column
 /// @throws ResultsError
 std::optional<std::string> table_page(const std::filesystem::path& directory, std::size_t most_rows, std::size_t most_text);

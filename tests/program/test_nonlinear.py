@@ -2,6 +2,7 @@
 
 usage: test_nonlinear.py PINTLE"""
 
+import json
 import os
 import re
 import subprocess
@@ -66,6 +67,20 @@ class Nonlinear(unittest.TestCase):
             self.assertEqual(len(dots) > 0, "1000" not in text)
             for cx, cy, r in dots:
                 self.assertTrue(x <= cx - r and cx + r <= x + width and y <= cy - r and cy + r <= y + height, (text, cx, cy))
+
+    def test_its_tables_are_a_page(self):
+        self.assertEqual(self.end_of("section: {when: Z > 20, record: [X, Y], transient: 0, returns: 9}\nlyapunov: {every: 0.1 s, over: 5 s}\n"
+                                     "over: {rho: [27, 28]}\n", "--out", "out").returncode, 0)
+        json.loads((self.place / "out" / "nonlinear.json").read_text())
+        done = subprocess.run([pintle, "report", "out"], cwd=self.place, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        data = re.search('<script type="application/json" id="data">(.*?)</script>', (self.place / "out" / "report.html").read_text())
+        tables = {table["file"]: table for table in json.loads(data[1])["tables"]}
+        self.assertEqual(list(tables), ["section.csv", "values.csv", "lyapunov.csv"])
+        self.assertEqual((tables["section.csv"]["x"], tables["section.csv"]["y"]), ("rho", "X"))
+        for file, table in tables.items():
+            rows = (self.place / "out" / file).read_text().splitlines()
+            self.assertEqual(table["all"], len(rows) - 1, file)
 
     def test_who_waits_is_told_how_far_a_value_is(self):
         _, code = interrupted(self.study("section: {every: 100 s, record: X, transient: 0, returns: 1000000}\n"), self.place,

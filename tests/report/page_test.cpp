@@ -212,7 +212,7 @@ TEST(Page, ASweepIsATableWithItsFirstColumnsChosen) {
       "case,\"clearance, radial [m]\",law,peak [N],status,reason\n1,1e-5,hertz,120.5,finished,\n2,2e-5,hunt,,failed,\"too deep, at 3\"\n");
   folder.write("sweep.json", R"({"title": "<marquee>", "varied": ["clearance, radial"], "measures": {"peak [N]": {"least": 120.5}}})");
   const std::string page = report_page(folder.path());
-  const Json data = data_of(page);
+  const Json data = data_of(page)["tables"][0];
   EXPECT_EQ(data["rows"], Json::parse(R"([[1,1e-5,"hertz",120.5,"finished",null],[2,2e-5,"hunt",null,"failed","too deep, at 3"]])"));
   EXPECT_EQ(data["columns"][1], (Json{{"name", "clearance, radial"}, {"unit", "m"}}));
   EXPECT_EQ(data["x"], "clearance, radial");
@@ -227,7 +227,7 @@ TEST(Page, ALongSweepKeepsItsExtremes) {
   for (int i = 0; i < 20'000; ++i) text += std::to_string(i) + (i == 777 ? ",9\n" : i == 15'001 ? ",-4\n" : ",1\n");
   folder.write("sweep.csv", text);
   folder.write("sweep.json", "{}");
-  const Json data = data_of(report_page(folder.path()));
+  const Json data = data_of(report_page(folder.path()))["tables"][0];
   EXPECT_EQ(data["all"], 20'000);
   EXPECT_LE(data["rows"].size(), 5004U);
   const auto there = [&](const Json& row) { return std::find(data["rows"].begin(), data["rows"].end(), row) != data["rows"].end(); };

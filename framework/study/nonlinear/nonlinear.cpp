@@ -189,6 +189,7 @@ void write_results(const Nonlinear& study, const fs::path& folder, const std::ve
   if (study.question.lyapunov) write_synced(folder / "lyapunov.csv", lyapunov_csv(study, rows));
   write_synced(folder / "timings.csv", timings_csv(rows));
   write_synced(folder / "values.csv", values_csv(study, rows));
+  write_synced(folder / "nonlinear.json", nonlinear_json(study, rows));
 }
 
 }  // namespace

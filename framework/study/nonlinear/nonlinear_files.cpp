@@ -234,10 +234,14 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
     for (const Exponent& e : value.orbit.exponents)
       one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});
   }
+  Json varied = Json::array();
+  if (study.varies()) varied.push_back(parameter_header(study));
   const Json out = {{"program", "pintle"},
                     {"version", PINTLE_VERSION},
                     {"title", study.sweep.study.title},
                     {"file", study.sweep.study.file},
+                    {"varied", varied},
+                    {"recorded", study.question.section ? signal_headers(study, rows) : std::vector<std::string>()},
                     {"values", values}};
   return json_text(out) + "\n";
 }
