@@ -30,7 +30,7 @@ class EventTable {
                             })));
       const out = element("tr", {tabIndex: 0}, ...cells);
       out.onclick = () => this.clock.set(row[1]);
-      out.onkeydown = (event) => event.key === "Enter" && this.clock.set(row[1]);
+      out.addEventListener("keydown", ({key}) => key === "Enter" && this.clock.set(row[1]));
       return out;
     });
     byId(`${this.name}-table`).append(element("thead", {}, element("tr", {}, ...heading)), element("tbody", {}, ...this.rows));

@@ -348,7 +348,11 @@ function pickColumn(title, columns, chosen, also = null) {
   byId("picker-title").textContent = title;
   filter.value = "";
   filter.oninput = fillList;
-  filter.onkeydown = (event) => event.key === "Enter" && (event.preventDefault(), list.querySelector("button")?.click());
+  filter.onkeydown = (event) => {  // returns nothing: a handler that returns false swallows the key
+    if (event.key !== "Enter") return;
+    event.preventDefault();
+    list.querySelector("button")?.click();
+  };
   fillList();
   dialog.showModal();
   filter.focus();
