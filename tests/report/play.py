@@ -6,11 +6,10 @@ Exits with 1 where something is wrong; times are told and not judged."""
 import csv
 import json
 import os
-import shutil
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
+
+from chromium import Chromium
 
 playing = """(async () => {
   const times = [], work = [];
@@ -40,77 +39,6 @@ values = """JSON.stringify([0, 0.13, 0.5, 0.77, 1].map((share) => {
     return [column.name, column.t[nearestIndex(column.t, page.clock.time)], value.title];
   }));
 }).flat())"""
-
-
-class Chromium:
-    """One page, spoken to by the DevTools protocol on two pipes."""
-
-    def __init__(self, page):
-        self.profile = tempfile.mkdtemp()
-        inward, self.out = os.pipe()
-        self.back, outward = os.pipe()
-
-        def pipes():
-            a, b = os.dup(inward), os.dup(outward)
-            os.dup2(a, 3), os.dup2(b, 4)
-
-        self.process = subprocess.Popen(
-            ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
-             "--disable-component-update", "--disable-sync", f"--user-data-dir={self.profile}", "--window-size=1400,1000",
-             "--remote-debugging-pipe", "about:blank"],
-            preexec_fn=pipes, close_fds=False, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(inward), os.close(outward)
-        self.text, self.number, self.told, self.session = b"", 0, [], None
-        target = next(t for t in self.ask("Target.getTargets")["targetInfos"] if t["type"] == "page")
-        self.session = self.ask("Target.attachToTarget", targetId=target["targetId"], flatten=True)["sessionId"]
-        for domain in ("Page", "Runtime", "Log"):
-            self.ask(domain + ".enable")
-        self.ask("Page.navigate", url=page.resolve().as_uri())
-        while not any(m.get("method") == "Page.loadEventFired" for m in self.told):
-            self.told.append(self.read())
-
-    def read(self):
-        while b"\0" not in self.text:
-            self.text += os.read(self.back, 1 << 20)
-        message, _, self.text = self.text.partition(b"\0")
-        return json.loads(message)
-
-    def ask(self, method, **parameters):
-        self.number += 1
-        message = {"id": self.number, "method": method, "params": parameters}
-        if self.session:
-            message["sessionId"] = self.session
-        os.write(self.out, json.dumps(message).encode() + b"\0")
-        while True:
-            answer = self.read()
-            if answer.get("id") == self.number:
-                return answer["result"]
-            self.told.append(answer)
-
-    def value(self, expression):
-        return json.loads(self.ask("Runtime.evaluate", expression=expression, awaitPromise=True)["result"]["value"])
-
-    def computed(self):
-        """Seconds of the processor in all of its processes."""
-        out, session = 0, str(self.process.pid)
-        for stat in Path("/proc").glob("[0-9]*/stat"):
-            try:
-                fields = stat.read_text().rpartition(")")[2].split()
-            except OSError:  # it has ended
-                continue
-            if fields[3] == session:
-                out += int(fields[11]) + int(fields[12])
-        return out / os.sysconf("SC_CLK_TCK")
-
-    def troubles(self):
-        return [m for m in self.told if m.get("method") in ("Runtime.exceptionThrown", "Log.entryAdded")
-                or m.get("method") == "Runtime.consoleAPICalled" and m["params"]["type"] in ("error", "warning")]
-
-    def close(self):
-        self.process.terminate()
-        self.process.wait()
-        os.close(self.out), os.close(self.back)
-        shutil.rmtree(self.profile, ignore_errors=True)
 
 
 def rows_at(file, times):

@@ -1,0 +1,224 @@
+"""Pages of `pintle report` driven in headless Chromium by mouse and keys: they show what the tables hold, and nothing goes wrong in them.
+
+usage: test_page.py PINTLE"""
+
+import csv
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from chromium import Chromium
+
+pintle = os.path.realpath(sys.argv.pop(1))
+if not shutil.which("chromium"):
+    sys.exit(print("skipped: there is no chromium; apt-get install chromium") or 77)
+examples = Path(__file__).resolve().parents[2] / "examples"
+
+
+def setUpModule():
+    global folder, browser
+    folder = Path(tempfile.mkdtemp())
+
+    def call(*words):
+        subprocess.run([pintle, *map(str, words)], check=True, stdout=subprocess.DEVNULL)
+
+    call("run", examples / "slider_crank_clearance.yaml", "--report", "-o", folder / "worn")
+    call("run", examples / "four_bar_flexible.yaml", "--set", "run.until=50 ms", "--report", "-o", folder / "plate")
+    call("sweep", examples / "studies/speed.yaml", "-o", folder / "sweep")
+    call("report", folder / "sweep")
+    browser = Chromium(folder / "sweep/report.html")
+
+
+def tearDownModule():
+    browser.close()
+    shutil.rmtree(folder)
+
+
+def table(file):
+    """Names of columns without their units, rows."""
+    with open(folder / file, newline="") as text:
+        header, *rows = csv.reader(text)
+    return [name.partition(" [")[0] for name in header], [[float(x) if x else math.nan for x in row] for row in rows]
+
+
+class Driven(unittest.TestCase):
+    def open(self, name, width=1400, height=1000, **screen):
+        browser.screen(width, height, **screen)
+        browser.open(folder / name / "report.html")
+
+    def tearDown(self):
+        self.assertEqual(browser.get("errors"), [])
+        self.assertEqual(browser.troubles(), [])
+
+    def expect_values_of(self, file):
+        """What stands above the plots is what the table holds at the time of the nearest row."""
+        names, rows = table(file)
+        by_time = {row[0]: row for row in rows}
+        shown = browser.get("page.panels.filter((panel) => !panel.against).flatMap(({shown}) => shown.map(({column, value}) =>"
+                            "[column.name, column.t[nearestIndex(column.t, page.clock.time)], value.title]))")
+        self.assertGreater(len(shown), 1)
+        for name, t, title in shown:
+            self.assertEqual(float(title), by_time[t][names.index(name)], f"{name} at {t}")
+
+
+class Transport(Driven):
+    def test_plays_and_pauses_by_its_button_and_by_a_key(self):
+        self.open("worn")
+        for press in (lambda: browser.click("#play"), lambda: browser.key(" ")):
+            begin = browser.get("page.clock.time")
+            press()
+            browser.wait(f"page.clock.time > {begin}")
+            press()
+            time = browser.get("page.clock.time")
+            self.assertEqual(browser.get("[page.clock.playing, page.clock.time]"), [False, time])
+            self.expect_values_of("worn/trajectory.csv")
+
+    def test_the_slider_goes_to_a_time(self):
+        self.open("worn")
+        for share in (0.37, 0.71):
+            browser.click(browser.place("#scrub", share))
+            time, end = browser.get("[page.clock.time, page.clock.end]")
+            self.assertAlmostEqual(time / end, share, delta=0.02)  # the thumb's middle stays 8 of some 500 px from the ends
+            self.assertEqual(browser.get("byId('clock').textContent"), f"{1e3 * time:.3f} ms")
+            self.expect_values_of("worn/trajectory.csv")
+
+    def test_the_speed_is_the_chosen_one(self):
+        self.open("worn")
+        browser.get("byId('speed').focus()")
+        browser.key("ArrowDown")
+        self.assertEqual(browser.get("[page.clock.seconds, Number(byId('speed').value)]"), [16, 16])
+
+    def test_steps_go_to_rows_and_to_impacts(self):
+        self.open("worn")
+        impacts = [float(row.split(",")[1]) for row in (folder / "worn/events.csv").read_text().splitlines()[1:]]
+        self.assertGreater(len(impacts), 2)
+        for time in impacts[:3]:
+            browser.key("n")
+            self.assertEqual(browser.get("page.clock.time"), time)
+            self.expect_values_of("worn/trajectory.csv")
+        browser.key("p")
+        self.assertEqual(browser.get("page.clock.time"), impacts[1])
+        browser.key("Home")
+        browser.key("ArrowRight")
+        self.assertEqual(browser.get("page.clock.time"), browser.get("page.clock.t[1]"))
+
+
+    def test_rows_of_impacts_take_the_keyboard_and_let_it_go(self):
+        self.open("worn")
+        browser.get("document.querySelector('#impact-table tbody tr').focus()")
+        browser.key("Tab")
+        self.assertEqual(browser.get("document.activeElement.rowIndex"), 2)
+        browser.key("Enter")
+        self.assertEqual(browser.get("page.clock.time"), browser.get("page.clock.events[1]"))
+
+
+class View(Driven):
+    def test_the_wheel_zooms_about_the_pointer(self):
+        self.open("worn")
+        at = browser.place("#canvas", 0.25, 0.6)
+        under = "(b => page.stage.toWorld(%r - b.left, %r - b.top))(byId('canvas').getBoundingClientRect())" % at
+        scale, before = browser.get("page.stage.scale"), browser.get(under)
+        browser.mouse("Wheel", at, deltaX=0, deltaY=-200)
+        browser.wait(f"page.stage.scale > {scale}")
+        after = browser.get(under)
+        self.assertAlmostEqual(browser.get("page.stage.scale") / scale, math.exp(0.3), delta=1e-9)
+        for axis in "xy":
+            self.assertAlmostEqual(after[axis], before[axis], delta=1.5 / scale)  # offsetX is whole
+
+    def test_follows_a_body(self):
+        self.open("worn")
+        browser.get("byId('follow').focus()")
+        browser.key("ArrowDown")
+        self.assertEqual(browser.get("byId('follow').selectedOptions[0].textContent"), "crank")
+        middle = browser.get("page.stage.px(page.stage.now[0])")
+        browser.click(browser.place("#scrub", 0.4))
+        self.assertEqual(browser.get("page.stage.px(page.stage.now[0])"), middle)
+
+    def test_sliders_enlarge_clearance_and_deformation(self):
+        for name, id, field in ("worn", "clearance", "exaggeration"), ("plate", "deformation", "deformation"):
+            self.open(name)
+            before = browser.get(f"page.stage.{field}")
+            browser.click(browser.place("#" + id, 0.98))
+            after = browser.get(f"page.stage.{field}")
+            self.assertGreater(after, before)
+            self.assertEqual(browser.get(f"byId('{id}').nextElementSibling.textContent"), browser.get(f"`× ${{plain({after}, 3)}}`"))
+
+
+class Plots(Driven):
+    def test_a_drag_zooms_all_and_two_clicks_show_all_again(self):
+        self.open("worn")
+        ranges = "[...page.panels.filter((panel) => !panel.against), page.ledger].map(({plot}) => [plot.scales.x.min, plot.scales.x.max])"
+        whole = browser.get(ranges)
+        browser.drag(browser.place("#panels .u-over", 0.3), browser.place("#panels .u-over", 0.6))
+        zoomed = browser.get(ranges)
+        self.assertEqual(len({tuple(r) for r in zoomed}), 1)
+        for got, wanted in zip(zoomed[0], (0.3, 0.6)):
+            self.assertAlmostEqual(got / whole[0][1], wanted, delta=5e-3)
+        browser.click("#panels .u-over", 2)
+        self.assertEqual(browser.get(ranges), whole)
+
+    def test_a_column_is_picked_by_a_part_of_its_name(self):
+        self.open("worn")
+        browser.click("#panels .panel:first-child .tools button:nth-child(2)")
+        browser.type("slider.x")
+        browser.key("Enter")
+        self.assertEqual(browser.get("page.panels[0].names.at(-1)"), "slider.x")
+        browser.click(browser.place("#scrub", 0.5))
+        self.expect_values_of("worn/trajectory.csv")
+
+    def test_the_ledger_closes(self):
+        """Its highest area is the sum of the table's entries; what it lacks of the dashed line is the unexplained energy."""
+        for name in "worn", "plate":
+            self.open(name)
+            names, rows = table(f"{name}/ledger.csv")
+            by_time = {row[0]: row for row in rows}
+            t, top, line, lifted = browser.get("(({plot, parts}) => [plot.data[0], plot.data[1], plot.data.at(-1), ledgerStack(parts).lifted].map("
+                                               "(x) => x.length ? [...x] : x))(page.ledger)")
+            self.assertGreater(len(t), 100)
+            for time, high, wanted in zip(t, top, line):
+                row = by_time[time]
+                parts = [x for x, column in zip(row, names) if column not in ("t", "stored", "unexplained") and not column.endswith(".work in")]
+                rounding = 2**-52 * len(row) * (abs(lifted) + sum(map(abs, row[1:])) + abs(high) + sum(map(abs, rows[0][1:])))
+                self.assertAlmostEqual(high, lifted + math.fsum(parts), delta=rounding)
+                self.assertAlmostEqual(wanted - high, -row[names.index("unexplained")], delta=2 * rounding)
+
+
+class Study(Driven):
+    def test_the_table_is_the_tables(self):
+        self.open("sweep")
+        with open(folder / "sweep/sweep.csv", newline="") as text:
+            header, *rows = csv.reader(text)
+        shown = browser.get("[...document.querySelectorAll('#study-table tbody tr')].map((row) => [...row.cells].map((cell) => cell.title))")
+        self.assertEqual(len(shown), len(rows))
+        for got, wanted in zip(shown, rows):
+            for a, b in zip(got, wanted):
+                self.assertTrue(a == b or float(a) == float(b), (a, b))
+
+    def test_a_band_on_an_axis_keeps_the_rows_that_cross_it(self):
+        self.open("sweep")
+        browser.drag(browser.place("#study-parallel .handle", y=0.4), browser.place("#study-parallel .handle", y=0.02))
+        speeds = browser.get("[...document.querySelectorAll('#study-table tbody tr')].map((row) => Number(row.cells[1].title))")
+        self.assertEqual(speeds, [150, 200])
+        browser.click("#study-clear")
+        self.assertEqual(browser.get("document.querySelectorAll('#study-table tbody tr').length"), 4)
+
+
+class Screens(Driven):
+    def test_no_page_is_wider_than_its_window(self):
+        for name in "worn", "plate", "sweep":
+            for scheme in "light", "dark":
+                for width, height, mobile in (1400, 1000, False), (390, 844, True):
+                    with self.subTest(page=name, scheme=scheme, width=width):
+                        self.open(name, width, height, scheme=scheme, mobile=mobile)
+                        self.assertLessEqual(browser.get("document.documentElement.scrollWidth"), width)
+                        if "PINTLE_PICTURES" in os.environ:  # to look at
+                            browser.picture(Path(os.environ["PINTLE_PICTURES"]) / f"{name}_{scheme}_{width}.png")
+
+
+if __name__ == "__main__":
+    unittest.main()
