@@ -145,6 +145,20 @@ class BentMesh {
     return greatest;
   }
 
+  /// The greatest at all rows of the modal coordinates. It is a norm, so a row's is at most that of a row before and what each shape
+  /// alone has by the change since; where that is too little the row is passed over.
+  greatestStress(modes) {
+    const alone = modes.map((_, k) => this.stress(modes.map((_, j) => Number(j === k))));
+    let [greatest, last, before] = [0, 0, modes.map(() => 0)];
+    for (let row = 0; row < (modes[0]?.length ?? 0); ++row) {
+      const eta = modes.map((values) => values[row]);
+      if (last + eta.reduce((sum, x, k) => sum + alone[k] * Math.abs(x - before[k]), 0) <= greatest) continue;
+      [last, before] = [this.stress(eta), eta];
+      greatest = Math.max(greatest, last);
+    }
+    return greatest;
+  }
+
   /// The greatest displacement of a point [m].
   deflection(eta) {
     let greatest = 0;

@@ -19,25 +19,27 @@ class Stage {
     this.paths = this.makePaths();
   }
 
-  /// What of the whole motion is needed to scale the picture: its box, greatest stress, usual force.
+  /// What of the whole motion is needed to scale the picture: its box, usual force.
   measure() {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
     const forces = [];
-    this.greatestStress = 0;
     this.greatestDeflection = 0;
     for (const time of this.sampledTimes(60)) {
       const poses = this.motion.poses(time);
       this.widen(box, poses);
       forces.push(Math.max(0, ...this.motion.forces(time, poses).map(({force}) => Math.hypot(force.x, force.y))));
       this.meshes.forEach((mesh, b) => {
-        if (!mesh) return;
-        this.greatestStress = Math.max(this.greatestStress, mesh.stress(poses[b].eta));
-        this.greatestDeflection = Math.max(this.greatestDeflection, mesh.deflection(poses[b].eta));
+        if (mesh) this.greatestDeflection = Math.max(this.greatestDeflection, mesh.deflection(poses[b].eta));
       });
     }
     forces.sort((a, b) => a - b);
     this.usualForce = forces[Math.floor(0.9 * (forces.length - 1))] || forces.at(-1) || 0;
     this.box = box[0] <= box[2] ? box : [-1, -1, 1, 1];
+  }
+
+  /// Of all rows; sought when it is first asked for.
+  get greatestStress() {
+    return this.stressFound ??= Math.max(0, ...this.meshes.map((mesh, b) => mesh?.greatestStress(this.motion.bodies[b].modes) ?? 0));
   }
 
   sampledTimes(most) {

@@ -149,6 +149,16 @@ class View(Driven):
             self.assertEqual(browser.get(f"byId('{id}').nextElementSibling.textContent"), browser.get(f"`× ${{plain({after}, 3)}}`"))
 
 
+    def test_colours_of_stress_reach_to_the_greatest_of_all_rows(self):
+        self.open("plate")
+        browser.click("#show-stress")
+        greatest = browser.get("Math.max(...Array.from(page.motion.t, (_, row) => "
+                               "page.stage.meshes[1].stress(page.motion.bodies[1].modes.map((values) => values[row]))))")
+        self.assertGreater(greatest, 0)
+        self.assertEqual(browser.get("page.stage.greatestStress"), greatest)
+        self.assertEqual(browser.get("byId('colour-most').textContent"), browser.get(f"engineering({greatest}, 'Pa', 3)"))
+
+
 class Plots(Driven):
     def test_a_drag_zooms_all_and_two_clicks_show_all_again(self):
         self.open("worn")
