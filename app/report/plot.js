@@ -178,11 +178,31 @@ function timeHooks(clock) {
   };
 }
 
+/// The row that a click means: the peak of the nearest curve if there is one within a few pixels, else the row under the pointer.
+function rowClicked(u, left, top) {
+  const [t, ...curves] = u.data;
+  const [from, to] = [left - 5, left + 5].map((x) => intervalOf(t, u.posToVal(x, "x")));
+  let best = {distance: 8, row: u.posToIdx(left)};
+  curves.forEach((y, k) => {
+    const rows = Array.from({length: to - from + 1}, (_, i) => from + i).filter((row) => Number.isFinite(y[row]));
+    if (rows.length === 0) return;
+    const off = (row) => u.valToPos(y[row], u.series[k + 1].scale) - top;
+    const high = rows.reduce((a, b) => (y[b] > y[a] ? b : a));
+    const low = rows.reduce((a, b) => (y[b] < y[a] ? b : a));
+    const distance = Math.max(off(high), -off(low), 0);
+    const isPeak = (row) => row !== rows[0] && row !== rows.at(-1);
+    const [peak] = [high, low].filter(isPeak).sort((a, b) => Math.abs(off(a)) - Math.abs(off(b)));
+    if (distance < best.distance) best = {distance, row: peak ?? u.posToIdx(left)};
+  });
+  return best.row;
+}
+
 function clickGoes(u, clock) {
   let pressed = 0;
   u.over.addEventListener("mousedown", (event) => (pressed = event.clientX));
   u.over.addEventListener("mouseup", (event) => {
-    if (Math.abs(event.clientX - pressed) < 4 && u.cursor.idx !== null) clock.set(u.data[0][u.cursor.idx]);
+    const {left, top} = u.over.getBoundingClientRect();
+    if (Math.abs(event.clientX - pressed) < 4) clock.set(u.data[0][rowClicked(u, event.clientX - left, event.clientY - top)]);
   });
   u.over.addEventListener("mouseleave", () => clock.point(null));
   clock.plots.add(u);

@@ -172,6 +172,21 @@ class Plots(Driven):
         browser.click("#panels .u-over", 2)
         self.assertEqual(browser.get(ranges), whole)
 
+    def test_a_click_at_a_peak_takes_the_peak(self):
+        self.open("worn")
+        names, rows = table("worn/trajectory.csv")
+        column = names.index("gudgeon pin.normal")
+        highest = max(rows, key=lambda row: row[column])
+        left, top = browser.place("#panels .u-over", 0, 0)
+        at = browser.get("(({plot, shown}) => [plot.valToPos(%r, 'x'), plot.valToPos(%r, 'y N')])(page.panels[0])" % (highest[0], highest[column]))
+        for off in (0, 2, 4):
+            browser.key("End")
+            browser.click((left + at[0] + off, top + at[1] + 2))
+            self.assertEqual(browser.get("page.clock.time"), highest[0])
+        # far from a curve it is the time under the pointer
+        browser.click((left + at[0] + 100, top + at[1] + 2))
+        self.assertAlmostEqual(browser.get("page.panels[0].plot.valToPos(page.clock.time, 'x')"), at[0] + 100, delta=1)
+
     def test_a_column_is_picked_by_a_part_of_its_name(self):
         self.open("worn")
         browser.click("#panels .panel:first-child .tools button:nth-child(2)")
