@@ -19,7 +19,7 @@ function keysOf(page) {
     ["+", view(() => stage.zoom(1.25))],
     ["=", view(() => stage.zoom(1.25))],
     ["-", view(() => stage.zoom(0.8))],
-    ["0", view(() => stage.fit())],
+    ["0", flip("fit")],
     ["f", flip("show-forces")],
     ["s", flip("show-stress")],
     ["t", flip("show-paths")],

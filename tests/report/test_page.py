@@ -138,6 +138,9 @@ class View(Driven):
         middle = browser.get("page.stage.px(page.stage.now[0])")
         browser.click(browser.place("#scrub", 0.4))
         self.assertEqual(browser.get("page.stage.px(page.stage.now[0])"), middle)
+        browser.click(browser.place("#canvas", 0.1, 0.1))
+        browser.key("0")
+        self.assertEqual(browser.get("[page.stage.followed, Number(byId('follow').value), page.stage.fitted]"), [-1, -1, True])
 
     def test_sliders_enlarge_clearance_and_deformation(self):
         for name, id, field in ("worn", "clearance", "exaggeration"), ("plate", "deformation", "deformation"):
