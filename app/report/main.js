@@ -139,6 +139,9 @@ const tellShown = (shown, more = {}) =>
 
 const errors = [];
 window.addEventListener("error", (event) => errors.push(String(event.message)));
+window.addEventListener("unhandledrejection", (event) => errors.push(`unhandled: ${event.reason}`));
+const consoleError = console.error;
+console.error = (...what) => (errors.push(what.join(" ")), consoleError(...what));
 window.addEventListener("securitypolicyviolation", (event) => errors.push(`blocked: ${event.violatedDirective}`));
 const data = JSON.parse(byId("data").textContent);
 const page = data.tables ? new StudyPage(data) : new Page(data);

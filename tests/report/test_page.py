@@ -216,6 +216,16 @@ class Plots(Driven):
                 self.assertAlmostEqual(wanted - high, -row[names.index("unexplained")], delta=2 * rounding)
 
 
+class Errors(unittest.TestCase):
+    def test_are_kept_by_the_page_and_told_to_the_browser(self):
+        browser.screen(1400, 1000)
+        browser.open(folder / "sweep/report.html")
+        browser.get("(console.error('first', 1), Promise.reject(new Error('second')), setTimeout(() => { throw new Error('third'); }), 0)")
+        browser.wait("errors.length > 2")
+        self.assertEqual(sorted(browser.get("errors")), ["Uncaught Error: third", "first 1", "unhandled: Error: second"])
+        self.assertEqual(len(browser.troubles()), 3)
+
+
 class Study(Driven):
     def test_the_table_is_the_tables(self):
         self.open("sweep")
