@@ -5,6 +5,6 @@
 /// The files of app/report/, embedded into the program by the build (cmake/embed.cmake).
 namespace pintle::page_parts {
 
-extern const std::string_view style, body, script;
+extern const std::string_view notice, style, body, script;
 
 }  // namespace pintle::page_parts

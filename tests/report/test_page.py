@@ -226,6 +226,12 @@ class Errors(unittest.TestCase):
         self.assertEqual(len(browser.troubles()), 3)
 
 
+class Notice(unittest.TestCase):
+    def test_the_licence_of_the_plots_library_is_in_the_page(self):
+        licence = Path(__file__).resolve().parents[2] / "app/report/vendor/uplot/LICENSE"
+        self.assertIn(licence.read_text(), (folder / "sweep/report.html").read_text())
+
+
 class Study(Driven):
     def test_the_table_is_the_tables(self):
         self.open("sweep")
