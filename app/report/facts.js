@@ -18,15 +18,18 @@ function factsOf(value) {
   return list;
 }
 
-/// Objects with the same keys, a row each.
+/// Objects with the same keys: a row each, or a column each where they have more keys than there are objects.
 function tableOf(objects) {
   const keys = [...new Set(objects.flatMap((one) => Object.keys(one)))];
-  const rows = objects.map((one) => element("tr", {}, ...keys.map((key) => element("td", {}, factsOf(one[key] ?? null)))));
-  return element(
-      "div", {className: "scroll"},
-      element(
-          "table", {}, element("thead", {}, element("tr", {}, ...keys.map((key) => element("th", {scope: "col", textContent: key})))),
-          element("tbody", {}, ...rows)));
+  const cell = (one, key) => element("td", {}, factsOf(one[key] ?? null));
+  const heading = (key, scope) => element("th", {scope, textContent: key});
+  const parts = keys.length > objects.length ?
+      [element("tbody", {}, ...keys.map((key) => element("tr", {}, heading(key, "row"), ...objects.map((one) => cell(one, key)))))] :
+      [
+        element("thead", {}, element("tr", {}, ...keys.map((key) => heading(key, "col")))),
+        element("tbody", {}, ...objects.map((one) => element("tr", {}, ...keys.map((key) => cell(one, key)))))
+      ];
+  return element("div", {className: "scroll"}, element("table", {}, ...parts));
 }
 
 function showFacts(run) {

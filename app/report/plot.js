@@ -238,6 +238,7 @@ function markTimes(u, happenings) {
   ctx.globalAlpha = happenings.length > 60 ? 0.25 : 0.7;
   ctx.setLineDash([4 * ratio, 4 * ratio]);
   ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = "left";
   ctx.textBaseline = "top";
   ctx.beginPath();
   let free = bbox.left;

@@ -71,7 +71,7 @@ class Chromium:
     def get(self, expression):
         """A value as JSON, once what is waiting is drawn."""
         return self.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-                          f".then(() => JSON.stringify(({expression}) ?? null))")
+                          f".then(() => ({expression})).then((x) => JSON.stringify(x ?? null))")
 
     def wait(self, condition):
         """Until it holds in some frame; raises if it does not hold in a thousand."""

@@ -29,6 +29,8 @@ def setUpModule():
 
     call("run", examples / "slider_crank_clearance.yaml", "--report", "-o", folder / "worn")
     call("run", examples / "four_bar_flexible.yaml", "--set", "run.until=50 ms", "--report", "-o", folder / "plate")
+    call("run", examples / "rotating_beam.yaml", "--report", "-o", folder / "warned")
+    call("run", examples / "breaker.yaml", "--report", "-o", folder / "events")
     call("sweep", examples / "studies/speed.yaml", "-o", folder / "sweep")
     call("report", folder / "sweep")
     browser = Chromium(folder / "sweep/report.html")
@@ -253,6 +255,37 @@ class Study(Driven):
 
 
 class Screens(Driven):
+    def test_words_in_the_tables_of_facts_stay_whole(self):
+        for width, mobile in (1400, False), (390, True):
+            self.open("plate", width, mobile=mobile)
+            lines = browser.get("""[...document.querySelectorAll('#facts th, #facts td > span')].map((cell) => {
+              const range = document.createRange();
+              range.selectNodeContents(cell);
+              const tops = new Set([...range.getClientRects()].map((r) => Math.round(r.top)));
+              return [cell.textContent, tops.size];
+            })""")
+            self.assertGreater(len(lines), 10)
+            for text, count in lines:
+                self.assertLessEqual(count, max(1, len(text.split())), text)
+
+    def test_warnings_are_whole_on_a_phone(self):
+        self.open("warned", 390, 844, mobile=True)
+        high, seen = browser.get("[byId('warnings').scrollHeight, byId('warnings').clientHeight]")
+        self.assertEqual(high, seen)
+
+    def test_names_of_events_stand_right_of_their_lines(self):
+        self.open("events")
+        names = browser.get("""(() => {
+          const written = [], plain = CanvasRenderingContext2D.prototype.fillText;
+          CanvasRenderingContext2D.prototype.fillText = function(...words) {
+            if (words[0] === "trip") written.push(this.textAlign);
+            return plain.apply(this, words);
+          };
+          page.panels.forEach((panel) => panel.draw());
+          return new Promise((done) => setTimeout(() => (CanvasRenderingContext2D.prototype.fillText = plain, done(written))));
+        })()""")
+        self.assertEqual(set(names), {"left"})
+
     def test_no_page_is_wider_than_its_window(self):
         for name in "worn", "plate", "sweep":
             for scheme in "light", "dark":
