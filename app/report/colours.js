@@ -23,7 +23,7 @@ function palette() {
     accent: css("--accent"),
     joint: css("--series-0"),
     contact: css("--accent"),
-    load: css("--series-2"),
+    load: css("--series-3"),
     spring: css("--series-2"),
     bodies: Array.from({length: 8}, (_, i) => css(`--series-${i}`)),
   };

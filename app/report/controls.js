@@ -138,7 +138,7 @@ function listenToOptions(page) {
     box.onchange = () => ((stage.show[what] = box.checked), showColourBar(stage), page.redraw());
   }
   byId("stress-option").hidden = !stage.meshes.some((mesh) => mesh);
-  byId("force-option").hidden = stage.usualForce === 0;
+  byId("force-option").hidden = stage.usualForce === 0 && stage.usualCouple === 0;
   byId("arrows").oninput = ({target}) => ((stage.arrows = 2 ** target.value), page.redraw());
   slider(
       "clearance", model.contacts.some((c) => c.radius), stage.exaggeration, Math.max(4 * stage.exaggeration, 10),

@@ -264,7 +264,7 @@ function drawClearance(stage, contact) {
   stroke(stage, stage.colours.ink, 1.5);
 }
 
-// Paths, forces, words
+// Paths, words
 
 function drawPath(stage, path, i) {
   const colour = stage.colours.bodies[(i + 3) % stage.colours.bodies.length];
@@ -282,33 +282,6 @@ function drawPath(stage, path, i) {
   stage.context.globalAlpha = 1;
   trace(stage, done, false);
   stroke(stage, colour, 1.75);
-}
-
-function drawForces(stage) {
-  if (!(stage.usualForce > 0)) return;
-  const perNewton = (0.16 * Math.min(stage.width, stage.height) * stage.arrows) / stage.usualForce;
-  const longest = 0.55 * Math.min(stage.width, stage.height);
-  for (const {kind, at, force} of stage.motion.forces(stage.time, stage.now)) {
-    const size = Math.hypot(force.x, force.y);
-    const pixels = Math.min(size * perNewton, longest);
-    if (pixels > 2) drawArrow(stage, stage.px(at), force.x / size, -force.y / size, pixels, stage.colours[kind]);
-  }
-}
-
-function drawArrow(stage, [x, y], ux, uy, length, colour) {
-  const head = Math.min(9, 0.6 * length);
-  const [tx, ty] = [x + length * ux, y + length * uy];
-  const {context} = stage;
-  context.beginPath();
-  context.moveTo(x, y);
-  context.lineTo(tx - 0.8 * head * ux, ty - 0.8 * head * uy);
-  stroke(stage, colour, 2);
-  context.beginPath();
-  context.moveTo(tx, ty);
-  context.lineTo(tx - head * ux - 0.4 * head * uy, ty - head * uy + 0.4 * head * ux);
-  context.lineTo(tx - head * ux + 0.4 * head * uy, ty - head * uy - 0.4 * head * ux);
-  context.closePath();
-  fill(stage, colour, 1);
 }
 
 function write(stage, text, x, y, colour, align = "left") {
@@ -344,9 +317,7 @@ function drawNames(stage) {
 }
 
 function drawScaleBar(stage) {
-  const wanted = 110 / stage.scale;
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  const length = [5, 2, 1].map((n) => n * power).find((n) => n <= wanted) ?? power;
+  const length = roundBelow(110 / stage.scale);
   const pixels = length * stage.scale;
   const [x, y] = [16, stage.height - 18];
   const {context} = stage;

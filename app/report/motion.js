@@ -63,12 +63,12 @@ class Motion {
     return {...toWorld(pose, x, y), angle};
   }
 
-  /// A force by the names of its columns, null where there is none. What the ground takes is shown as what it gives.
+  /// A force and a couple by the names of their columns, null where there are none. What the ground takes is shown as what it gives.
   force(name, on, time) {
-    const fx = this.column(`${name}.fx on ${on}`);
-    const fy = this.column(`${name}.fy on ${on}`);
-    const sign = on === "ground" ? -1 : 1;
-    return fx && fy ? {x: sign * this.value(fx, time), y: sign * this.value(fy, time)} : null;
+    const [fx, fy, torque] = ["fx", "fy", "torque"].map((what) => this.column(`${name}.${what} on ${on}`));
+    if (!(fx && fy) && !torque) return null;
+    const of = (values) => (values ? (on === "ground" ? -1 : 1) * this.value(values, time) : 0);
+    return {force: {x: of(fx), y: of(fy)}, couple: of(torque)};
   }
 
   /// Where a contact's columns put it, null without them.
@@ -78,12 +78,12 @@ class Motion {
     return x && y ? {x: this.value(x, time), y: this.value(y, time)} : null;
   }
 
-  /// Every force of joints, contacts, loads and springs at a time, with the place where it acts.
+  /// Every force and couple of joints, contacts, loads and springs at a time, with the place where it acts.
   forces(time, poses) {
     const out = [];
     const add = (kind, name, on, at) => {
       const force = at && this.force(name, on, time);
-      if (force) out.push({kind, name, at, force});
+      if (force) out.push({kind, name, at, ...force});
     };
     for (const j of this.model.joints) add("joint", j.name, j.on, this.place(j.acts, poses));
     for (const c of this.model.contacts)

@@ -19,21 +19,30 @@ class Stage {
     this.paths = this.makePaths();
   }
 
-  /// What of the whole motion is needed to scale the picture: its box, usual force.
+  /// What of the whole motion is needed to scale the picture: its box, usual force and couple, kinds of forces.
   measure() {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
-    const forces = [];
+    const [all, forces, couples] = [[], [], []];
     this.greatestDeflection = 0;
     for (const time of this.sampledTimes(60)) {
       const poses = this.motion.poses(time);
       this.widen(box, poses);
-      forces.push(Math.max(0, ...this.motion.forces(time, poses).map(({force}) => Math.hypot(force.x, force.y))));
+      const now = this.motion.forces(time, poses);
+      all.push(...now);
+      forces.push(Math.max(0, ...now.map(({force}) => Math.hypot(force.x, force.y))));
+      couples.push(Math.max(0, ...now.map(({couple}) => Math.abs(couple))));
       this.meshes.forEach((mesh, b) => {
         if (mesh) this.greatestDeflection = Math.max(this.greatestDeflection, mesh.deflection(poses[b].eta));
       });
     }
-    forces.sort((a, b) => a - b);
-    this.usualForce = forces[Math.floor(0.9 * (forces.length - 1))] || forces.at(-1) || 0;
+    const usual = (sizes) => (sizes.sort((a, b) => a - b), sizes[Math.floor(0.9 * (sizes.length - 1))] || sizes.at(-1) || 0);
+    const [force, couple, rounding] = [usual(forces), usual(couples) / this.model.length, 1e-9];
+    this.usualForce = force > rounding * couple ? force : 0;
+    this.usualCouple = couple > rounding * force ? couple * this.model.length : 0;
+    const least = rounding * Math.max(force, couple);
+    const acting = all.filter((one) => Math.hypot(one.force.x, one.force.y, one.couple / this.model.length) > least);
+    this.kinds = [...new Set(acting.map(({kind}) => kind))];
+    this.tips = this.usualForce > 0 ? acting.map(({at, force}) => [at, force.x, force.y, Math.max(Math.hypot(force.x, force.y), this.usualForce)]) : [];
     this.box = box[0] <= box[2] ? box : [-1, -1, 1, 1];
   }
 
@@ -113,13 +122,28 @@ class Stage {
   }
 
   fit() {
-    const [x0, y0, x1, y1] = this.box;
+    const below = this.kinds.length > 0 ? 60 : 30;  // of the picture, for what is written there
     const margin = 1.18;
     const least = 0.02 * this.model.length;
-    this.scale = Math.min(this.width / (margin * Math.max(x1 - x0, least)), (this.height - 30) / (margin * Math.max(y1 - y0, least)));
-    this.centre = {x: (x0 + x1) / 2, y: (y0 + y1) / 2};
+    let box = this.box;
+    for (let pass = 0; pass < 4; ++pass) {  // the smaller the scale, the longer are arrows beside the bodies
+      const [x0, y0, x1, y1] = box;
+      this.scale =
+          Math.min(this.width / (margin * Math.max(x1 - x0, least)), (this.height - below) / (margin * Math.max(y1 - y0, least)));
+      this.centre = {x: (x0 + x1) / 2, y: (y0 + y1) / 2 - (below - 30) / 2 / this.scale};
+      box = this.withArrows();
+    }
     this.fitted = true;
     this.followed = -1;
+  }
+
+  /// The box and the tips of usual arrows at the present scale; longer ones reach as far.
+  withArrows() {
+    const [x0, y0, x1, y1] = this.box;
+    const length = usualLength(this) / this.scale / 1.1;  // part of the margin is theirs
+    const [x, y] = [0, 1].map((axis) => this.tips.map(([at, fx, fy, size]) => (axis ? at.y : at.x) + ((axis ? fy : fx) / size) * length));
+    return [x.reduce((a, b) => Math.min(a, b), x0), y.reduce((a, b) => Math.min(a, b), y0),
+            x.reduce((a, b) => Math.max(a, b), x1), y.reduce((a, b) => Math.max(a, b), y1)];
   }
 
   zoom(factor, px = this.width / 2, py = this.height / 2) {

@@ -220,7 +220,7 @@ std::vector<std::string> drawn_columns(const Model& model) {
   std::vector<std::string> out = needed_columns(model);
   const System& system = model.system;
   const auto add_force = [&](const std::string& name, const std::string& on) {
-    for (const char* const column : {".fx on ", ".fy on "}) out.push_back(name + column + on);
+    for (const char* const column : {".fx on ", ".fy on ", ".torque on "}) out.push_back(name + column + on);
   };
   for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) add_force(system.joint_names[at(k)], joint_subject(system, k));
   for (const Json& c : contacts_json(system)) {

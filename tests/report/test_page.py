@@ -164,6 +164,55 @@ class View(Driven):
         self.assertEqual(browser.get("byId('colour-most').textContent"), browser.get(f"engineering({greatest}, 'Pa', 3)"))
 
 
+class Forces(Driven):
+    drawn = """((time) => {
+      const arrows = [], couples = [], texts = [], names = {drawArrow, drawCouple, write};
+      page.clock.set(time);
+      drawArrow = (stage, ...one) => (arrows.push(one), names.drawArrow(stage, ...one));
+      drawCouple = (stage, ...one) => (couples.push(one), names.drawCouple(stage, ...one));
+      write = (stage, text, ...more) => (texts.push(text), names.write(stage, text, ...more));
+      page.stage.draw(time);
+      ({drawArrow, drawCouple, write} = names);
+      return {arrows, couples, texts, width: page.stage.width, height: page.stage.height};
+    })"""
+
+    def test_arrows_and_arcs_are_as_long_as_the_scale_says(self):
+        self.open("plate")
+        names, rows = table("plate/trajectory.csv")
+        for row in rows[100], rows[700]:
+            now = dict(zip(names, row))
+            drawn = browser.get(f"{self.drawn}({row[0]!r})")
+            *arrows, scale = drawn["arrows"]
+            couple, unit = drawn["couples"]
+            force_text, couple_text = (next(t for t in drawn["texts"] if t.endswith(end)) for end in (" N", " N m"))
+            newton, newton_metre = scale[3] / float(force_text.split()[0]), unit[1] / float(couple_text.split()[0])
+            sizes = [math.hypot(now[f"{joint} on {body}"], now[f"{joint.replace('fx', 'fy')} on {body}"])
+                     for joint, body in (("A.fx", "crank"), ("B.fx", "coupler"), ("C.fx", "rocker"), ("D.fx", "rocker"))]
+            self.assertEqual(len(arrows), 4)
+            for (_, ux, uy, length, colour), size in zip(arrows, sizes):
+                self.assertAlmostEqual(length, newton * size, delta=1e-9 * length)
+            self.assertAlmostEqual(couple[1], newton_metre * now["motor.torque on crank"], delta=1e-9 * abs(couple[1]))
+            self.assertIn("→ joint", drawn["texts"])
+
+    def test_a_couple_of_rounding_is_none(self):
+        self.open("worn")  # of the guide, 1e-17 N m
+        self.assertEqual(browser.get("page.stage.usualCouple"), 0)
+
+    def test_no_arrow_leaves_the_picture_of_a_phone(self):
+        self.open("plate", 390, mobile=True)
+        browser.get("(byId('arrows').value = 2, byId('arrows').dispatchEvent(new Event('input')))")
+        for share in range(0, 51):
+            ends = browser.get("""(() => {
+              const ends = [], plain = arrowHead;
+              arrowHead = (stage, ...one) => (ends.push(one.slice(0, 2)), plain(stage, ...one));
+              page.stage.draw(%r);
+              arrowHead = plain;
+              return ends.map(([x, y]) => [x / page.stage.width, y / page.stage.height]);
+            })()""" % (1e-3 * share))
+            for x, y in ends:
+                self.assertTrue(0 <= x <= 1 and 0 <= y <= 1, (x, y))
+
+
 class Plots(Driven):
     def test_a_drag_zooms_all_and_two_clicks_show_all_again(self):
         self.open("worn")
