@@ -2,7 +2,8 @@
 
 // The page put together.
 
-/// Columns that a first look should show: the scene's own outputs, what happens in clearances and contacts, else joint forces, and how the mechanism moves.
+/// Columns that a first look should show: the scene's own outputs, what happens in clearances and contacts, else joint
+/// forces, a joint's orbit and the polar of its force, and how the mechanism moves.
 function firstPlots(model, table) {
   const known = (names) => names.filter((name) => table.columns.has(name));
   const spans = new Map();  // the widest of each unit: what is far below it is rounding
@@ -30,10 +31,13 @@ function firstPlots(model, table) {
     out.push({names: known([...joints, ...springs]).filter(varies).slice(0, 2)});
   if (clearance && known([`${clearance.name}.ex`, `${clearance.name}.ey`]).length === 2)
     out.push({names: [`${clearance.name}.ey`], against: `${clearance.name}.ex`});
+  const polar = [...(clearance ? [clearance] : []), ...model.joints].map(({name, on}) => [`${name}.fx on ${on}`, `${name}.fy on ${on}`])
+                    .find((pair) => known(pair).filter(varies).length === 2);
+  if (polar) out.push({names: [polar[1]], against: polar[0]});
   const [stress] = [...table.columns.keys()].filter((name) => /\.(stress|von Mises|uy)$/.test(name) && varies(name));
   if (stress) out.push({names: [stress]});
   out.push({names: motion.slice(-2)});
-  return out.filter(({names}) => names.length > 0).slice(0, 3);
+  return out.filter(({names}) => names.length > 0).slice(0, 4);
 }
 
 class Page {

@@ -45,6 +45,7 @@ class PlotPanel {
     if (columns.length === 0) return;
     const build = this.against ? orbitPlot : timePlot;
     this.plot = build(this, columns, this.area.clientWidth || 480, 230);
+    if (this.against && !this.table.whole) this.values.append(element("li", {className: "hint", textContent: `${this.pairs[0].t.length} rows`}));
     this.plot.over.append(this.marker);
     this.showNow();
   }
@@ -254,97 +255,6 @@ function markTimes(u, happenings) {
   }
   ctx.stroke();
   ctx.restore();
-}
-
-// One column against another: a joint's orbit, a load over a path.
-
-/// Both columns at the times of the one that has fewer of them.
-function pairOf(first, second) {
-  const t = first.t.length <= second.t.length ? first.t : second.t;
-  const at = (column) => (column.t === t ? column.y : t.map((time) => valueAt(column, time)));
-  return {t, x: at(first), y: at(second)};
-}
-
-function orbitPlot(panel, columns, width, height) {
-  const evenly = panel.table.poses.columns;  // where both are read at the same rows, if they are
-  const column = (name) => evenly.get(name) ?? panel.table.columns.get(name);
-  const abscissa = column(panel.against);
-  panel.pairs = columns.map(({name}) => pairOf(abscissa, column(name)));
-  const wide = panel.pairs.map(({x}) => rangeOf(x));
-  const high = panel.pairs.map(({y}) => rangeOf(y));
-  let x = padded(Math.min(...wide.map((r) => r[0])), Math.max(...wide.map((r) => r[1])));
-  let y = padded(Math.min(...high.map((r) => r[0])), Math.max(...high.map((r) => r[1])));
-  if (columns.every(({unit}) => unit === abscissa.unit)) [x, y] = equalScales(x, y, (width - 80) / (height - 60));
-  const curve = (i) => ({
-    stroke: seriesColour(i),
-    width: 1.25,
-    paths: orbitPath,
-    label: columns[i].name,
-    points: {show: false},
-    facets: [{scale: "x", auto: false, sorted: 0}, {scale: "y", auto: false, sorted: 0}],
-  });
-  const options = {
-    mode: 2,
-    width,
-    height,
-    legend: {show: false},
-    scales: {x: {time: false, auto: false, range: x}, y: {auto: false, range: y}},
-    series: [null, ...columns.map((_, i) => curve(i))],
-    axes: [axisOf(abscissa.unit, abscissa.name, "x", {size: 34, labelSize: 18}), axisOf(columns[0].unit, "", "y", {size: 58})],
-    cursor: {x: false, y: false, points: {show: false}, drag: {setScale: false, x: false, y: false}},
-    hooks: {ready: [(u) => orbitClicks(u, panel)]},
-  };
-  return new uPlot(options, [null, ...panel.pairs.map(({x: px, y: py}) => [px, py])], panel.area);
-}
-
-const padded = (least, most) => paddedRange(null, least, most);
-
-/// The same length of both axes a unit, so that circles are round.
-function equalScales([x0, x1], [y0, y1], aspect) {
-  const unit = Math.max((x1 - x0) / aspect, y1 - y0);
-  const around = (a, b, size) => [(a + b - size) / 2, (a + b + size) / 2];
-  return [around(x0, x1, unit * aspect), around(y0, y1, unit)];
-}
-
-function orbitPath(u, seriesIndex) {
-  const [xs, ys] = u.data[seriesIndex];
-  const path = new Path2D();
-  let drawing = false;
-  for (let i = 0; i < xs.length; ++i) {
-    const there = isFinite(xs[i]) && isFinite(ys[i]);
-    if (there) path[drawing ? "lineTo" : "moveTo"](u.valToPos(xs[i], "x", true), u.valToPos(ys[i], "y", true));
-    drawing = there;
-  }
-  const {ctx} = u;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
-  ctx.clip();
-  ctx.strokeStyle = seriesColour(seriesIndex - 1);
-  ctx.lineWidth = 1.25 * (window.devicePixelRatio || 1);
-  ctx.stroke(path);
-  ctx.restore();
-  return null;
-}
-
-function orbitPlace({plot, pairs, clock}) {
-  const {t, x, y} = pairs[0];
-  const i = nearestIndex(t, clock.time);
-  return [plot.valToPos(x[i], "x"), plot.valToPos(y[i], "y")];
-}
-
-/// A click goes to the time of the nearest point of a curve.
-function orbitClicks(u, {pairs, clock}) {
-  u.over.addEventListener("click", (event) => {
-    const box = u.over.getBoundingClientRect();
-    let best = {distance: Infinity, time: clock.time};
-    for (const {t, x, y} of pairs)
-      for (let i = 0; i < t.length; ++i) {
-        const distance = Math.hypot(u.valToPos(x[i], "x") - event.clientX + box.left, u.valToPos(y[i], "y") - event.clientY + box.top);
-        if (distance < best.distance) best = {distance, time: t[i]};
-      }
-    clock.set(best.time);
-  });
 }
 
 /// A dialogue that lists columns by part of their names.

@@ -225,7 +225,7 @@ std::vector<std::string> drawn_columns(const Model& model) {
   for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) add_force(system.joint_names[at(k)], joint_subject(system, k));
   for (const Json& c : contacts_json(system)) {
     const std::string name = c["name"];
-    for (const char* const column : {".ex", ".ey", ".x", ".y"}) out.push_back(name + column);
+    for (const char* const column : {".ex", ".ey", ".x", ".y", ".depth", ".normal"}) out.push_back(name + column);
     add_force(name, c["on"]);
   }
   for (std::size_t f = 0; f < system.forces.size(); ++f) add_force(system.force_names[f], body_of(system, marker_b(system.forces[f])));

@@ -241,6 +241,31 @@ class Plots(Driven):
         browser.click((left + at[0] + 100, top + at[1] + 2))
         self.assertAlmostEqual(browser.get("page.panels[0].plot.valToPos(page.clock.time, 'x')"), at[0] + 100, delta=1)
 
+    def test_a_column_against_another_is_of_rows_of_the_table(self):
+        self.open("worn")
+        names, rows = table("worn/trajectory.csv")
+        by_time = {row[0]: row for row in rows}
+        self.assertFalse(browser.get("page.table.whole"))
+        self.assertEqual(browser.get("page.panels.filter((panel) => panel.against).map((panel) => [panel.against, ...panel.names])"),
+                         [["gudgeon pin.ex", "gudgeon pin.ey"], ["gudgeon pin.fx on slider", "gudgeon pin.fy on slider"]])
+        browser.get("(page.addPlot(['gudgeon pin.sliding', 'coupler.alpha'], 'slider.vx').draw(), page.addPlot(['gudgeon pin.normal'], 'gudgeon pin.depth').draw())")
+        plots = browser.get("page.panels.filter((panel) => panel.against).flatMap(({against, names, pairs}) =>"
+                            "pairs.map(({t, x, y}, i) => [against, names[i], [...t], [...x], [...y]]))")
+        self.assertEqual(len(plots), 5)
+        for across, up, *pairs in plots:
+            self.assertGreater(len(pairs[0]), 1000 if "gudgeon pin.sliding" != up and "coupler.alpha" != up else 10)
+            for t, x, y in zip(*pairs):
+                self.assertEqual([x, y], [by_time[t][names.index(across)], by_time[t][names.index(up)]], f"{up} against {across} at {t}")
+
+    def test_axes_of_a_column_against_another_are_their_own(self):
+        self.open("plate")
+        axes = browser.get("""(() => {
+          const panel = page.addPlot(["crank.speed", "A.fx on crank"], "crank.angle");
+          panel.draw();
+          return panel.plot.axes.map((axis) => axis.label(panel.plot)).concat(panel.plot.axes.map((axis) => axis.scale));
+        })()""")
+        self.assertEqual(axes, ["crank.angle [rad]", "crank.speed [rad/s]", "A.fx on crank [N]", "x", "y rad/s", "y N"])
+
     def test_a_column_is_picked_by_a_part_of_its_name(self):
         self.open("worn")
         browser.click("#panels .panel:first-child .tools button:nth-child(2)")
