@@ -50,9 +50,13 @@ class Page {
     this.stage = new Stage(byId("canvas"), this.motion);
     this.events = data.events ? new EventTable(this.clock, data.events, "impact", "strongest") : null;
     this.actions = data.actions ? new EventTable(this.clock, data.actions, "action", "first") : null;
-    this.ledger = data.ledger?.rows > 0 ? new LedgerPanel(this.clock, readTable(data.ledger), data.run) : null;
     this.panels = [];
     for (const {names, against} of firstPlots(data.model, this.table)) this.addPlot(names, against);
+    if (!(data.ledger?.rows > 0)) return;
+    const ledger = readTable(data.ledger);
+    this.ledger = new LedgerPanel(this.clock, ledger, data.run);
+    for (const [name, column] of ledger.columns)
+      if (!this.table.columns.has(name)) this.table.columns.set(name, column);
   }
 
   start() {
