@@ -68,13 +68,18 @@ function listenToPointer(page) {
     const [a, b] = [...pointers.values()];
     return Math.hypot(a.x - b.x, a.y - b.y);
   };
-  canvas.addEventListener(
-      "pointerdown",
-      (event) => (canvas.setPointerCapture(event.pointerId), pointers.set(event.pointerId, {x: event.clientX, y: event.clientY})));
+  let moved = 0;
+  canvas.addEventListener("pointerdown", (event) => {
+    moved = 0;
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+  });
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
+  canvas.addEventListener("click", (event) => moved < 4 && page.plotOf(nameAt(page.stage, event.offsetX, event.offsetY)));
   canvas.addEventListener("pointermove", (event) => {
     const last = pointers.get(event.pointerId);
     if (!last) return;
+    moved += Math.hypot(event.clientX - last.x, event.clientY - last.y);
     const before = pointers.size === 2 ? spread() : 0;
     pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
     if (pointers.size === 2)

@@ -122,21 +122,23 @@ function drawSupport(stage, at, size) {
 
 const bodyColour = (stage, b) => stage.motion.model.bodies[b]?.colour ?? stage.colours.bodies[b % stage.colours.bodies.length];
 
-function drawBody(stage, body, b) {
-  const pose = stage.now[b];
-  const colour = bodyColour(stage, b);
+function bodyOutlines(stage, body, b) {
   const outlines = body.profiles.map((p) => ({points: stage.profilePoints(p, stage.now), closed: p.closed}));
-  if (body.outline.length > 0) {
-    const points = Array.from({length: body.outline.length / 2}, (_, i) => toWorld(pose, body.outline[2 * i], body.outline[2 * i + 1]));
-    outlines.push({points, closed: true});
-  }
+  if (body.outline.length === 0) return outlines;
+  const at = (i) => toWorld(stage.now[b], body.outline[2 * i], body.outline[2 * i + 1]);
+  return [...outlines, {points: Array.from({length: body.outline.length / 2}, (_, i) => at(i)), closed: true}];
+}
+
+function drawBody(stage, body, b) {
+  const colour = bodyColour(stage, b);
+  const outlines = bodyOutlines(stage, body, b);
   if (body.profiles.length > 0) drawBars(stage, b, outlines, colour);
   for (const {points, closed} of outlines) {
     trace(stage, points, closed);
     if (closed) fill(stage, colour, 0.22);
     stroke(stage, colour, 1.75);
   }
-  if (stage.meshes[b]) drawMesh(stage, stage.meshes[b], pose, colour);
+  if (stage.meshes[b]) drawMesh(stage, stage.meshes[b], stage.now[b], colour);
 }
 
 /// What holds the surfaces of a body together: bars from its first joint to the others and to the middle of each surface.
@@ -155,25 +157,37 @@ function drawBars(stage, b, outlines, colour) {
   }
 }
 
-function drawMesh(stage, mesh, pose, colour) {
+/// The mesh's points in the picture.
+function bentPixels(stage, mesh, pose) {
   mesh.bend(pose, stage.deformation);
-  const {context} = stage;
   const at = new Float64Array(mesh.world.length);
   for (let p = 0; p < at.length; p += 2) {
     at[p] = stage.width / 2 + (mesh.world[p] - stage.looked.x) * stage.scale;
     at[p + 1] = stage.height / 2 - (mesh.world[p + 1] - stage.looked.y) * stage.scale;
   }
+  return at;
+}
+
+const fillRule = (mesh) => (mesh.loops ? "evenodd" : "nonzero");
+
+/// The outlines of a mesh, else its triangles.
+function traceMesh({context}, mesh, at) {
+  context.beginPath();
+  if (mesh.loops)
+    for (const loop of mesh.loops) traceLoop(context, loop, at);
+  else
+    for (let k = 0; k < mesh.triangles.length; k += 3) traceTriangle(context, mesh.triangles, k, at, 0);
+}
+
+function drawMesh(stage, mesh, pose, colour) {
+  const {context} = stage;
+  const at = bentPixels(stage, mesh, pose);
   if (stage.show.stress) {
     mesh.stress(pose.eta);
     fillByStress(stage, mesh, at);
-  } else if (mesh.loops) {
-    context.beginPath();
-    for (const loop of mesh.loops) traceLoop(context, loop, at);
-    fill(stage, colour, 0.3, "evenodd");
   } else {
-    context.beginPath();
-    for (let k = 0; k < mesh.triangles.length; k += 3) traceTriangle(context, mesh.triangles, k, at, 0);
-    fill(stage, colour, 0.3);
+    traceMesh(stage, mesh, at);
+    fill(stage, colour, 0.3, fillRule(mesh));
   }
   context.beginPath();
   for (let k = 0; k < mesh.rim.length; k += 2) {

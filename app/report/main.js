@@ -88,6 +88,12 @@ class Page {
     return panel;
   }
 
+  /// Lets one choose among the columns of a joint, a clearance or a body.
+  plotOf(name) {
+    const columns = new Map([...this.table.columns].filter(([column]) => column.startsWith(`${name}.`)));
+    if (columns.size > 0) pickColumn(`Plot a column of ${name}`, columns, (column) => this.addPlot([column]).draw());
+  }
+
   drawAll() {
     this.stage.colours = palette();
     for (const panel of [...this.panels, this.ledger]) panel?.draw();

@@ -5,70 +5,10 @@ usage: test_page.py PINTLE"""
 import csv
 import math
 import os
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from chromium import Chromium
-
-pintle = os.path.realpath(sys.argv.pop(1))
-if not shutil.which("chromium"):
-    sys.exit(print("skipped: there is no chromium; apt-get install chromium") or 77)
-examples = Path(__file__).resolve().parents[2] / "examples"
-
-
-def setUpModule():
-    global folder, browser
-    folder = Path(tempfile.mkdtemp())
-
-    def call(*words):
-        subprocess.run([pintle, *map(str, words)], check=True, stdout=subprocess.DEVNULL)
-
-    call("run", examples / "slider_crank_clearance.yaml", "--report", "-o", folder / "worn")
-    call("run", examples / "four_bar_flexible.yaml", "--set", "run.until=50 ms", "--report", "-o", folder / "plate")
-    call("run", examples / "rotating_beam.yaml", "--report", "-o", folder / "warned")
-    call("run", examples / "breaker.yaml", "--report", "-o", folder / "events")
-    call("sweep", examples / "studies/speed.yaml", "-o", folder / "sweep")
-    call("report", folder / "sweep")
-    browser = Chromium(folder / "sweep/report.html")
-
-
-def tearDownModule():
-    browser.close()
-    shutil.rmtree(folder)
-
-
-def table(file):
-    """Names of columns without their units, rows."""
-    with open(folder / file, newline="") as text:
-        header, *rows = csv.reader(text)
-    return [name.partition(" [")[0] for name in header], [[float(x) if x else math.nan for x in row] for row in rows]
-
-
-class Driven(unittest.TestCase):
-    def open(self, name, width=1400, height=1000, **screen):
-        browser.screen(width, height, **screen)
-        browser.open(folder / name / "report.html")
-
-    def tearDown(self):
-        self.assertEqual(browser.get("errors"), [])
-        self.assertEqual(browser.troubles(), [])
-
-    def expect_values_of(self, run):
-        """What stands above the plots is what the tables hold at the time of the nearest row."""
-        held = {}
-        for file in "ledger", "trajectory":
-            names, rows = table(f"{run}/{file}.csv")
-            held |= {name: (rows, i) for i, name in enumerate(names)}
-        shown = browser.get("page.panels.filter((panel) => !panel.against).flatMap(({shown}) => shown.map(({column, value}) =>"
-                            "[column.name, column.t[nearestIndex(column.t, page.clock.time)], value.title]))")
-        self.assertGreater(len(shown), 1)
-        for name, t, title in shown:
-            rows, i = held[name]
-            self.assertIn(float(title), [row[i] for row in rows if row[0] == t], f"{name} at {t}")
+from driven import Driven, browser, folder, source, table
 
 
 class Transport(Driven):
@@ -165,6 +105,37 @@ class View(Driven):
         self.assertGreater(greatest, 0)
         self.assertEqual(browser.get("page.stage.greatestStress"), greatest)
         self.assertEqual(browser.get("byId('colour-most').textContent"), browser.get(f"engineering({greatest}, 'Pa', 3)"))
+
+
+    def test_a_click_on_a_joint_or_a_body_lists_its_columns(self):
+        joint = "page.stage.px(page.stage.motion.place(page.stage.model.%s.b, page.stage.now))"
+        between = "page.stage.px(page.stage.motion.place(page.stage.model.joints[%d].b, page.stage.now))"
+        for run, mobile, place, name in (("worn", False, joint % "contacts[0]", "gudgeon pin"), ("worn", False, joint % "joints[1]", "crank pin"),
+                                         ("worn", False, "page.stage.px(page.stage.now[1])", "coupler"),
+                                         ("plate", True, f"((a, b) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2])({between % 1}, {between % 2})", "coupler"),
+                                         ("plate", True, joint % "joints[3]", "D")):
+            with self.subTest(name):
+                self.open(run, *((390, 844) if mobile else ()), mobile=mobile)
+                browser.click(browser.place("#scrub", 0.3))
+                plots = browser.get("page.panels.length")
+                left, top = browser.place("#canvas", 0, 0)
+                x, y = browser.get(place)
+                browser.click((left + x, top + y))
+                listed = browser.get("[...document.querySelectorAll('#picker-list button')].map((one) => one.firstChild.textContent)")
+                self.assertEqual(listed, [column for file in ("trajectory", "ledger") for column in table(f"{run}/{file}.csv")[0]
+                                          if column.startswith(name + ".")])
+                browser.click("#picker-list button")
+                self.assertEqual(browser.get("[page.panels.length, page.panels.at(-1).names]"), [plots + 1, listed[:1]])
+
+    def test_a_drag_of_the_picture_or_a_click_beside_it_lists_none(self):
+        self.open("worn")
+        x, y = browser.get("page.stage.px(page.stage.now[1])")
+        left, top = browser.place("#canvas", 0, 0)
+        centre = browser.get("page.stage.centre.x")
+        browser.drag((left + x, top + y), (left + x + 50, top + y))
+        self.assertLess(browser.get("page.stage.centre.x"), centre)
+        browser.click((left + 20, top + 60))
+        self.assertFalse(browser.get("byId('picker').open"))
 
 
 class Forces(Driven):
@@ -308,7 +279,7 @@ class Errors(unittest.TestCase):
 
 class Notice(unittest.TestCase):
     def test_the_licence_of_the_plots_library_is_in_the_page(self):
-        licence = Path(__file__).resolve().parents[2] / "app/report/vendor/uplot/LICENSE"
+        licence = source / "app/report/vendor/uplot/LICENSE"
         self.assertIn(licence.read_text(), (folder / "sweep/report.html").read_text())
 
 
