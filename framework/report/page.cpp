@@ -68,8 +68,8 @@ std::string page(const std::string& title, std::string json) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src "
       "'sha256-" +
       script_sum + "'\">\n";
-  out.append("<!-- uPlot, in the style and the script of this page:\n\n").append(page_parts::notice).append("-->\n");
   out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" + html_text(title) + "</title>\n<style>\n";
+  out.append("/* uPlot, here and in the script:\n\n").append(page_parts::notice).append("*/\n");
   out.append(page_parts::style).append("</style>\n</head>\n<body>\n").append(page_parts::body);
   out.append("<script type=\"application/json\" id=\"data\">").append(json_in_script(std::move(json))).append("</script>\n<script>");
   return out.append(page_parts::script).append("</script>\n</body>\n</html>\n");
