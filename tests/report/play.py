@@ -54,14 +54,17 @@ def rows_at(file, times):
 
 
 def wrong_values(browser, folder):
-    """What the page holds or shows that the table does not."""
+    """What the page holds or shows that the tables do not."""
     kept, shown = browser.value(columns), browser.value(values)
-    header, rows = rows_at(folder / "trajectory.csv", {t for _, _, times, _ in kept for t in times})
-    places, out, count = {name: i for i, name in enumerate(header)}, [], 0
+    wanted = {t for _, _, times, _ in kept for t in times}
+    places, out, count = {}, [], 0
+    for file in filter(Path.exists, (folder / "ledger.csv", folder / "trajectory.csv")):
+        header, rows = rows_at(file, wanted)
+        places |= {name: (rows, i) for i, name in enumerate(header)}
 
     def stands(name, t, value):
-        place = next((places[h] for h in places if h == name or h.startswith(name + " [")), None)
-        return place is not None and any(row[place] == value or value != value and row[place] != row[place] for row in rows.get(t, []))
+        rows, place = next((places[h] for h in places if h == name or h.startswith(name + " [")), ({}, None))
+        return any(row[place] == value or value != value and row[place] != row[place] for row in rows.get(t, []))
 
     for name, unit, times, numbers in kept:
         for t, number in zip(times, numbers):
@@ -87,7 +90,7 @@ def play(page, folder):
                   f"({told['longest']:.1f} at most), the page's program takes {told['work']:.1f}, the whole browser {computed:.1f} of computing", flush=True)
         if folder:
             wrong, count, shown = wrong_values(browser, folder)
-            print(f"{page.name}: {count} numbers held and {shown} shown, {len(wrong)} of them not in {folder.name}/trajectory.csv", *wrong[:5], sep="\n  ")
+            print(f"{page.name}: {count} numbers held and {shown} shown, {len(wrong)} of them not in the tables of {folder.name}", *wrong[:5], sep="\n  ")
             troubles += wrong
         troubles += [json.dumps(m)[:300] for m in browser.troubles()]
         print(f"{page.name}: {len(troubles)} errors", *troubles[:5], sep="\n  ", flush=True)
