@@ -317,6 +317,11 @@ class Screens(Driven):
             for text, count in lines:
                 self.assertLessEqual(count, max(1, len(text.split())), text)
 
+    def test_buttons_of_a_plot_stay_whole_beside_a_long_name(self):
+        self.open("worn", 1240)
+        cut = browser.get("[...document.querySelectorAll('.tools button:not(:first-child)')].filter((one) => one.scrollWidth > one.clientWidth).length")
+        self.assertEqual(cut, 0)
+
     def test_warnings_are_whole_on_a_phone(self):
         self.open("warned", 390, 844, mobile=True)
         high, seen = browser.get("[byId('warnings').scrollHeight, byId('warnings').clientHeight]")
