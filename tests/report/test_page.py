@@ -294,6 +294,11 @@ class Study(Driven):
             for a, b in zip(got, wanted):
                 self.assertTrue(a == b or float(a) == float(b), (a, b))
 
+    def test_each_axis_keeps_its_choices_together(self):
+        self.open("sweep", 390, mobile=True)
+        across, up = (browser.get(f"byId('study-{axis}').parentElement.getBoundingClientRect().left") for axis in "xy")
+        self.assertEqual(across, up)
+
     def test_a_band_on_an_axis_keeps_the_rows_that_cross_it(self):
         self.open("sweep")
         browser.drag(browser.place("#study-parallel .handle", y=0.4), browser.place("#study-parallel .handle", y=0.02))
