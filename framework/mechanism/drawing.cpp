@@ -110,7 +110,7 @@ Drafting::Drafting(const Scene& scene, const Model& model) {
 
 namespace {
 
-// Bearing and journal of each clearance, the gap between them exaggerated, and the force on the bearing.
+// Bearing and journal of each clearance, the gap between them exaggerated, and the force that results give.
 void draw_clearances(const System& system, const Drafting& drafting, const Equations& eq, Drawing& out) {
   const int first = static_cast<int>(system.bodies.size() + system.joints.size());
   for (std::size_t c = 0; c < at(n_clearances(system)); ++c) {
@@ -123,11 +123,11 @@ void draw_clearances(const System& system, const Drafting& drafting, const Equat
     out.lines.push_back(
         {Part::journal, owner, true,
          circle(center + s * now.gap.e, std::max(bearing_radius(pair.gap) - s * pair.gap.clearance(), 0.05 * bearing_radius(pair.gap)))});
-    out.forces.push_back({center + bearing_radius(pair.gap) * now.gap.n, now.on_b.head<2>(), owner, Giver::contact});
+    out.forces.push_back({center + bearing_radius(pair.gap) * now.gap.n, written_force(pair, now).head<2>(), owner, Giver::contact});
   }
 }
 
-// Surfaces, and the force on b of each pair that touches.
+// Surfaces, and the force of each pair that touches.
 void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
   const System& system = model.system;
   const int first = static_cast<int>(system.bodies.size() + system.joints.size()), of_ground = static_cast<int>(out.owners.size()) - 1;
@@ -143,8 +143,8 @@ void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
     if (now.normal.force == 0) continue;
     const ContactPair& pair = system.contacts[c];
     const Vector2d middle = eq.motion[at(pair.b)].r + now.gap.arm_b;
-    out.forces.push_back(
-        {touched(pair.gap.b, middle, -now.gap.n, now.gap.across), now.on_b.head<2>(), first + static_cast<int>(c), Giver::contact});
+    out.forces.push_back({touched(pair.gap.b, middle, -now.gap.n, now.gap.across), written_force(pair, now).head<2>(),
+                          first + static_cast<int>(c), Giver::contact});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tests/scenes/drawn_forces.h"
 #include "tests/scenes/text_runs.h"
 
 namespace pintle::written_force_test {
@@ -55,13 +56,16 @@ void expect_newton(const pintle_scenes::Whole& w, const std::string& body, doubl
 
 class WrittenForce : public testing::TestWithParam<Kind> {
  protected:
-  static pintle_scenes::Whole run(const std::string& first, const std::string& second, const std::string& bearing) {
+  static std::string scene(const std::string& first, const std::string& second, const std::string& bearing) {
     const bool two = first != "ground" && second != "ground";
     std::string text = "gravity: [3 m/s^2, -10 m/s^2]\nbodies:\n  a: {rigid: {mass: 2 kg, inertia: 0.1 kg m^2}}\n";
     if (two) text += "  b: {rigid: {mass: 3 kg, inertia: 0.2 kg m^2}}\n";
     text += "joints:\n  j: {" + GetParam().kind + ": [" + first + ", " + second + "]" + with(GetParam().rest, bearing) + "}\n";
     if (two) text += "  holds: {weld: [ground, " + first + "]}\n";
-    return pintle_scenes::run(text + "run: {until: 20 ms, method: dopri5, tolerance: 1e-8}\noutput: {every: 0.5 ms}\n");
+    return text + "run: {until: 20 ms, method: dopri5, tolerance: 1e-8}\noutput: {every: 0.5 ms}\n";
+  }
+  static pintle_scenes::Whole run(const std::string& first, const std::string& second, const std::string& bearing) {
+    return pintle_scenes::run(scene(first, second, bearing));
   }
 };
 TEST_P(WrittenForce, IsOnTheBodyThatMovesWhereTheOtherIsTheGround) {
@@ -75,6 +79,11 @@ TEST_P(WrittenForce, IsOnTheSecondOfTwoBodies) {
     expect_newton(run("a", "b", bearing), "b", 3);
     expect_newton(run("b", "a", bearing), "a", 2);
   }
+}
+TEST_P(WrittenForce, IsTheOneThatFramesShow) {
+  for (const auto& [first, second] : {std::pair("ground", "a"), std::pair("a", "ground"), std::pair("a", "b"), std::pair("b", "a")})
+    for (const char* bearing : {first, second})
+      EXPECT_GT(pintle_scenes::expect_frames_hold_written_forces(read_scene_text(scene(first, second, bearing), "scene.yaml")), 0);
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, WrittenForce, testing::ValuesIn(kinds), [](const auto& k) { return std::string(k.param.name); });
 

@@ -1,0 +1,30 @@
+// In examples, frames show the forces that results give: the same vectors on the same bodies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/scenes/drawn_forces.h"
+#include "tests/scenes/text_runs.h"
+
+namespace pintle::drawn_force_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(DrawnForces, OfEveryExampleAreThoseOfItsResults) {
+  long checked = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(PINTLE_SOURCE_DIR) / "examples")) {
+    if (entry.path().extension() != ".yaml") continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    Scene scene = read_scene(entry.path());
+    const bool moved_only = std::ranges::any_of(scene.bodies, [](const SceneBody& b) { return !b.elastic && b.mass == 0; });
+    if (!scene.has_run || moved_only) continue;
+    EXPECT_GT(pintle_scenes::expect_frames_hold_written_forces(std::move(scene)), 0);
+    ++checked;
+  }
+  EXPECT_GT(checked, 40);
+}
+
+}  // namespace
+}  // namespace pintle::drawn_force_test
