@@ -46,6 +46,13 @@ std::vector<std::size_t> shown_frames(const std::vector<double>& times, const Fi
   return out;
 }
 
+std::vector<PlacedImpact> shown_impacts(const Drawn& drawn, const FrameFiles& last) {
+  if (!drawn.style.impacts) return {};
+  std::vector<PlacedImpact> out = read_impacts(last);
+  std::erase_if(out, [&](const PlacedImpact& impact) { return impact.t > last.t; });
+  return out;
+}
+
 bool write_film(const Drawn& drawn, const FilmPlan& plan) {
   FilmFile::foresee(drawn.file);
   app::StatusLine line(drawn.quiet);
@@ -67,7 +74,7 @@ bool write_film(const Drawn& drawn, const FilmPlan& plan) {
   }
   PictureStyle style = drawn.style;
   style.even = true;
-  FramePicture picture(style, survey, read_frame(frames[shown.front()], drawn.deformation));
+  FramePicture picture(style, survey, read_frame(frames[shown.front()], drawn.deformation), shown_impacts(drawn, frames[shown.back()]));
   FilmFile film(drawn.file, picture.width(), picture.height(), plan.rate);
   for (std::size_t k = 0; k < shown.size(); ++k) {
     if (k == 0 || shown[k] != shown[k - 1]) picture.draw(read_frame(frames[shown[k]], drawn.deformation));

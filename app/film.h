@@ -29,6 +29,9 @@ struct FilmPlan {
 /// @throws std::invalid_argument  the plan is invalid; std::runtime_error  the results or the file are not usable
 bool write_film(const Drawn&, const FilmPlan&);
 
+/// The impacts until the last frame that is shown, unless the style leaves them out. @throws std::runtime_error
+std::vector<PlacedImpact> shown_impacts(const Drawn&, const FrameFiles& last);
+
 /// The frame shown in each picture of a film: the one nearest to its time. @pre frames are ordered by time
 std::vector<std::size_t> shown_frames(const std::vector<double>& frame_times, const FilmPlan&);
 

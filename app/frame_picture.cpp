@@ -28,6 +28,9 @@ struct Arrows {
 const std::array<Arrows, 4> arrows{Arrows{"joint", {0.36, 0.38, 0.46}}, Arrows{"contact", {0.80, 0.16, 0.14}},
                                    Arrows{"spring", {0.45, 0.35, 0.10}}, Arrows{"load", {0.50, 0.18, 0.62}}};
 
+const Colour impact_colour{0.90, 0.10, 0.45};
+constexpr double impact_size = 9;  ///< radius of the strongest [px], in large pictures
+
 Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + share_of_b * (b - a); }
 
 int owner_of(const Drawing& drawing, const DrawnBody& body) {
@@ -53,12 +56,13 @@ std::map<int, Colour> body_colours(const Drawing& drawing) {
 
 // Layout ------------------------------------------------------------------------------------------
 
-FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, const Drawing& first)
+FramePicture::FramePicture(const PictureStyle& style, const Survey& survey, const Drawing& first, std::vector<PlacedImpact> impacts)
     : style_(style),
       asked_(survey.world()),
       usual_force_(style.forces ? survey.usual_force() : 0),
       largest_couple_(style.forces ? survey.largest_couple() : 0),
       forces_(style.forces ? survey.forces() : std::vector<DrawnForce>()),
+      impacts_(std::move(impacts)),
       range_(survey.range()),
       givers_{survey.gives(Giver::joint), survey.gives(Giver::contact), survey.gives(Giver::spring), survey.gives(Giver::load)},
       width_(style.width) {
@@ -119,6 +123,8 @@ void FramePicture::note_scales(const Drawing& drawing) {
     for (std::size_t k = 0; k < arrows.size(); ++k)
       if (givers_[k]) add(Note::words, arrows[k].name, arrows[k].colour, 0);
   }
+  const auto visible = [&](const PlacedImpact& impact) { return world_.contains(impact.at); };
+  if (std::ranges::any_of(impacts_, visible)) add(Note::impacts, "impacts", ink, 2 * impact_size * small_);
   const auto add_times = [&](const char* what, double times) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%s drawn %.3g times", what, times);
@@ -225,6 +231,7 @@ void FramePicture::draw(const Drawing& drawing) {
   if (style_.paths) draw_lines(drawing, Part::trace);
   draw_flexible(drawing);
   for (const Part part : {Part::link, Part::cylinder, Part::spring, Part::joint, Part::bearing, Part::journal}) draw_lines(drawing, part);
+  draw_impacts(drawing.t);
   draw_forces(drawing);
   draw_head(drawing);
   draw_foot();
@@ -300,6 +307,18 @@ void FramePicture::draw_forces(const Drawing& drawing) {
   }
 }
 
+/// The area of a point is proportional to the peak force, but visible.
+void FramePicture::draw_impacts(double t) {
+  double largest = 0;
+  for (const PlacedImpact& impact : impacts_) largest = std::max(largest, impact.peak_force);
+  for (const PlacedImpact& impact : impacts_) {
+    if (impact.t > t) continue;
+    const double size = small_ * impact_size * (largest > 0 ? std::max(0.3, std::sqrt(impact.peak_force / largest)) : 0.5);
+    canvas_->disc(place(impact.at), size + 1.5 * small_, white);
+    canvas_->disc(place(impact.at), size, impact_colour);
+  }
+}
+
 /// Time and bodies.
 void FramePicture::draw_head(const Drawing& drawing) {
   const double w = width_, h = height_, first = h - 52 * small_, side = rim_width * small_;
@@ -325,6 +344,7 @@ void FramePicture::draw_foot() {
     if (note.kind == Note::lengths)
       canvas_->stroke({{x, y + 8 * small_}, {x, y}, {end, y}, {end, y + 8 * small_}}, false, 2.5 * small_, ink);
     if (note.kind == Note::forces) canvas_->arrow({x, y}, {end, y}, 4 * small_, ink);
+    if (note.kind == Note::impacts) canvas_->disc({(x + end) / 2, y}, impact_size * small_, impact_colour);
     canvas_->words(note.text, note.symbol > 0 ? end + 14 * small_ : x, y - 6 * small_, Align::left, note.colour);
   }
   if (!style_.field.empty()) draw_field_scale();

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "app/canvas.h"
+#include "app/frames.h"
 #include "app/survey.h"
 
 namespace pintle {
@@ -16,7 +17,7 @@ struct PictureSize {
 struct PictureStyle {
   int width = 1400, height = 0;  ///< [px]; height 0: chosen by the content
   bool even = false;             ///< both even, as required for films
-  bool forces = true, paths = true;
+  bool forces = true, paths = true, impacts = true;
   bool timeless = false;  ///< a single body, without a time
   std::string field;      ///< of flexible bodies, in colour
 };
@@ -24,8 +25,9 @@ struct PictureStyle {
 /// Draws frames on a canvas of fixed size: a uniform scale, time and names of the bodies above, scales below.
 class FramePicture {
  public:
-  /// @param first  first frame, for the names of the bodies   @throws std::invalid_argument  the size is invalid
-  FramePicture(const PictureStyle&, const Survey&, const Drawing& first);
+  /// @param first  first frame, for the names of the bodies   @param impacts  each is drawn from its time on
+  /// @throws std::invalid_argument  the size is invalid
+  FramePicture(const PictureStyle&, const Survey&, const Drawing& first, std::vector<PlacedImpact> impacts = {});
 
   Canvas& canvas() { return *canvas_; }
   int width() const { return width_; }
@@ -40,7 +42,7 @@ class FramePicture {
   };
   /// A note below the picture, from the left, row after row.
   struct Note {
-    enum Kind { lengths, forces, words } kind;
+    enum Kind { lengths, forces, words, impacts } kind;
     std::string text;
     Colour colour;
     double symbol, width;  ///< width of its symbol, and of symbol and text [px]
@@ -62,6 +64,7 @@ class FramePicture {
   void draw_lines(const Drawing&, Part);
   void draw_joint(const DrawnLine&, const std::vector<Vector2d>&);
   void draw_forces(const Drawing&);
+  void draw_impacts(double t);
   void draw_head(const Drawing&);
   void draw_foot();
   int field_rows() const;
@@ -71,6 +74,7 @@ class FramePicture {
   Eigen::AlignedBox2d asked_, world_ = {};  ///< as requested, and with a margin
   double usual_force_, largest_couple_;
   std::vector<DrawnForce> forces_;  ///< those whose arrows must be inside
+  std::vector<PlacedImpact> impacts_;
   FieldRange range_;
   std::array<bool, 4> givers_;                     ///< kinds of forces that occur in any frame
   int width_, height_ = 0, top_ = 0, bottom_ = 0;  ///< [px]

@@ -112,7 +112,7 @@ void add_paths(vtkUnstructuredGrid* grid, Drawing& out) {
   }
 }
 
-/// A flexible body, or the paths of points; impacts are not drawn.
+/// A flexible body, or the paths of points; impacts are read by read_impacts.
 void add_other(const fs::path& file, std::optional<double> deformation, Drawing& out) {
   const auto grid = read_grid(file);
   vtkFieldData* facts = grid->GetFieldData();
@@ -235,6 +235,19 @@ Drawing read_frame(const FrameFiles& files, std::optional<double> deformation) {
   Drawing drawing = read_lines(files.lines);
   for (const fs::path& file : files.others) add_other(file, deformation, drawing);
   return drawing;
+}
+
+std::vector<PlacedImpact> read_impacts(const FrameFiles& files) {
+  std::vector<PlacedImpact> out;
+  if (files.others.empty()) return out;
+  const auto grid = read_grid(files.others.back());
+  vtkDataArray* force = grid->GetPointData()->GetArray("peak force [N]");
+  vtkDataArray* time = grid->GetPointData()->GetArray("time [s]");
+  for (vtkIdType i = 0; force && time && i < grid->GetNumberOfPoints(); ++i) {
+    const double* r = grid->GetPoint(i);
+    out.push_back({{r[0], r[1]}, time->GetTuple1(i), force->GetTuple1(i)});
+  }
+  return out;
 }
 
 DrawnBody read_body(const fs::path& file) {

@@ -24,6 +24,14 @@ std::vector<FrameFiles> frames_of(const std::filesystem::path& directory);
 /// @throws std::runtime_error  not a frame written by this program
 Drawing read_frame(const FrameFiles&, std::optional<double> deformation = {});
 
+/// An impact of the run, where it was.
+struct PlacedImpact {
+  Eigen::Vector2d at;    ///< [m]
+  double t, peak_force;  ///< [s], [N]
+};
+/// All impacts of the run, from any of its frames. @throws std::runtime_error  they cannot be read
+std::vector<PlacedImpact> read_impacts(const FrameFiles&);
+
 /// A single body of elements, as written by `modes`, `static` and `mesh`; fields on cells are assigned to their points.
 /// @throws std::runtime_error  the file cannot be read
 DrawnBody read_body(const std::filesystem::path&);

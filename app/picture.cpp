@@ -54,10 +54,12 @@ const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& 
 
 /// @returns its size
 PictureSize write_picture(const Choice& choice) {
-  const Drawing drawing = read_frame(frame_of(frames_of(choice.drawn.directory), choice), choice.drawn.deformation);
+  const std::vector<FrameFiles> frames = frames_of(choice.drawn.directory);
+  const FrameFiles& frame = frame_of(frames, choice);
+  const Drawing drawing = read_frame(frame, choice.drawn.deformation);
   Survey survey(choice.drawn.around, choice.drawn.style.field);
   survey.add(drawing);
-  FramePicture picture(choice.drawn.style, survey, drawing);
+  FramePicture picture(choice.drawn.style, survey, drawing, shown_impacts(choice.drawn, frame));
   picture.draw(drawing);
   picture.canvas().write_png(choice.drawn.file);
   return {picture.width(), picture.height()};
@@ -116,6 +118,8 @@ void add_options(CLI::App& command, Choice& choice) {
       "--no-forces", [&drawn] { drawn.style.forces = false; }, "leave out the arrows of forces");
   command.add_flag_callback(
       "--no-paths", [&drawn] { drawn.style.paths = false; }, "leave out the paths of points");
+  command.add_flag_callback(
+      "--no-impacts", [&drawn] { drawn.style.impacts = false; }, "leave out the points where surfaces met");
   command.add_flag("-q,--quiet", drawn.quiet, "print errors only");
   auto* frame = command.add_option("--frame", choice.frame, "of a picture: which frame, from 0; -1 is the last (default)")->type_name("N");
   command.add_option("--time", choice.time, "of a picture: the frame nearest to this time [s]")
@@ -181,7 +185,7 @@ void validate_input(const CLI::App& command, const Choice& choice, bool film) {
   if (choice.drawn.style.field.empty())
     throw std::invalid_argument(given.string() + ": choose the field of the body to draw with --field NAME" + fields_in(given) +
                                 "; of a run name its folder");
-  refuse_options(command, {"--around", "--deformation", "--frame", "--time", "--no-forces", "--no-paths"},
+  refuse_options(command, {"--around", "--deformation", "--frame", "--time", "--no-forces", "--no-impacts", "--no-paths"},
                  "is for folders of runs; " + given.string() + " is one body");
 }
 

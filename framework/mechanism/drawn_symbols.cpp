@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "framework/common/index.h"
+#include "framework/mechanism/profile_contact.h"
 #include "framework/mechanism/trajectory.h"
 
 namespace pintle {
@@ -250,7 +251,7 @@ void follow_points(const Model& model, const State& state, const Equations& eq, 
     const Vector2d centre = eq.motion[at(pair.b)].r;
     Vector2d touch = centre;
     if (pair.profiles)
-      touch = touched(pair.gap.b, centre + eq.contact[c].gap.arm_b, -eq.contact[c].gap.n, eq.contact[c].gap.across);
+      touch = contact_place(system, c, state, eq);
     else
       touch += bearing_radius(pair.gap) * clearance_effect(system, eq, c).gap.n;
     out.touching.push_back({system.contact_names[c], touch.allFinite() ? touch : centre});

@@ -19,7 +19,20 @@ void as_far_as_the_end(double beside, double rate, Gap& gap) {
   gap.depth = -distance;
 }
 
+MovingPoint point_b(const System& system, std::size_t k, const State& state, const Equations& eq) {
+  const ContactPair& pair = system.contacts[k];
+  const MovingPoint b = moving_point(eq.motion[at(pair.b)]);
+  return pair.flank ? in_its_gap(system, pair, static_cast<int>(k), state.y, b) : b;
+}
+
 }  // namespace
+
+Eigen::Vector2d contact_place(const System& system, std::size_t k, const State& state, const Equations& eq) {
+  const ContactPair& pair = system.contacts[k];
+  const MovingPoint a = moving_point(eq.motion[at(pair.a)]);
+  const Gap gap = gap_between(pair, a, point_b(system, k, state, eq));
+  return touched(pair.gap.a, a.r + gap.arm_a, gap.n, gap.across);
+}
 
 ProfileContact profile_contact(const System& system, std::size_t first, const State& state, const Equations& eq) {
   ProfileContact out;
@@ -30,7 +43,7 @@ ProfileContact profile_contact(const System& system, std::size_t first, const St
     out.normal += effect.normal.force, out.friction += effect.friction, out.on_a += effect.on_a, out.on_b += effect.on_b;
     out.pressed = std::max(out.pressed, effect.normal.force);
     const MovingPoint a = moving_point(eq.motion[at(pair.a)]), b = moving_point(eq.motion[at(pair.b)]);
-    Gap gap = gap_between(pair, a, pair.flank ? in_its_gap(system, pair, static_cast<int>(k), state.y, b) : b);
+    Gap gap = gap_between(pair, a, point_b(system, k, state, eq));
     if (pair.flank) {
       const double along = pair.flank->side * std::cos(pair.flank->angle);
       out.teeth -= along * effect.normal.force, out.travel += (gap.depth + pair.flank->half) / (2 * along);

@@ -14,5 +14,7 @@ struct ProfileContact {
 };
 /// @param first  index of its first pair
 ProfileContact profile_contact(const System&, std::size_t first, const State&, const Equations&);
+/// Where the surfaces of one pair of profiles touch or are nearest; the equations hold the gap only of a pair that is near.
+Eigen::Vector2d contact_place(const System&, std::size_t pair, const State&, const Equations&);
 
 }  // namespace pintle

@@ -17,12 +17,22 @@ from pathlib import Path
 pintle = os.path.realpath(sys.argv.pop(1))
 has_pictures = (Path(pintle).parent / "pintle-picture").exists()
 load_colour = (128, 46, 158)
+impact_colour = (230, 26, 115)
 pushed = """
 bodies: {{bar: {{rigid: {{mass: 1000 kg, inertia: 1000}}, points: {{O: [-1, 0], end: [1, 0.2]}}}}}}
 joints: {{hinge: {{revolute: [ground, bar.O]}}}}
 forces: {{push: {{force: [{x:.6f}, {y:.6f}], at: bar.end}}}}
 run: {{until: 1 ms}}
 output: {{frames: 2}}
+"""
+dropped = """
+gravity: [0, -10]
+ground: {profiles: {floor: {path: [[1, 0], [-1, 0]], material: left}}}
+bodies: {ball: {rigid: {mass: 1 kg, inertia: 1e-3}, profiles: {rim: {disc: [0, 0], radius: 5 cm}}, pose: {at: [0, 0.25]}}}
+contacts: {hit: {between: [ball.rim, ground.floor], %s}}
+start: {ball: {at: [0.3, 0.25]}}
+run: {until: 0.4 s}
+output: {frames: 81}
 """
 gears = """
 bodies:
@@ -113,6 +123,17 @@ class Pictures(unittest.TestCase):
                 self.assertTrue(all(2 <= x < len(rows[0]) - 2 for x, _ in found), (k, size))
                 tip = self.length_of_arrow(found, len(rows))
                 self.assertGreater(tip, 12, (k, size))
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_impacts_are_points_from_their_time_on(self):
+        magenta = lambda p: max(abs(a - b) for a, b in zip(p, impact_colour)) < 20
+        for law in ("normal: {hunt-crossley: {stiffness: 1e7, exponent: 1, restitution: 0}}", "model: impact, restitution: 0"):
+            shutil.rmtree(self.place / "out", ignore_errors=True)
+            self.run_of(dropped % law, "out")
+            for options, seen in ((("--time", "0.19"), False), (("--time", "0.205"), True), (("--time", "0.205", "--no-impacts"), False)):
+                self.assertEqual(self.say("picture", "out", "a.png", "--size", "500", *options).returncode, 0)
+                rows = pixels(self.place / "a.png")
+                self.assertEqual(any(magenta(p) for row in rows[:-70] for p in row), seen, (law, options))
 
     @staticmethod
     def length_of_arrow(found, height):

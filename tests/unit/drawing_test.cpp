@@ -204,6 +204,17 @@ TEST(DrawnPoints, AreFollowedAsTheOutputNamesThem) {
   EXPECT_NEAR((drawing.followed[0].at - Vector2d(0, -3)).norm(), 0, 1e-9);
 }
 
+TEST(DrawnContacts, AreWhereTheSurfacesAreNearest) {
+  const Drawing drawing = drawn(R"(
+ground: {profiles: {floor: {path: [[1, 0], [-1, 0]], material: left}}}
+bodies: {ball: {rigid: {mass: 1, inertia: 1}, profiles: {rim: {disc: [0, 0], radius: 0.05}}, pose: {at: [0.3, 0.25]}}}
+contacts: {hit: {between: [ball.rim, ground.floor], model: impact, restitution: 0}}
+run: {until: 1}
+)");
+  // Of the pairs with the floor and its two ends, that with the floor: the lowest point of the ball, far above the floor.
+  EXPECT_TRUE(std::ranges::any_of(drawing.touching, [](const FollowedPoint& p) { return (p.at - Vector2d(0.3, 0.2)).norm() < 1e-12; }));
+}
+
 // --- pictures ---
 
 Drawing beside_a_wall() {
