@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/quantity.h"
+#include "framework/drawing/palette.h"
 
 namespace pintle {
 
@@ -16,17 +17,7 @@ constexpr double letters = 22;  // [px], in large pictures
 const Colour ink{0.16, 0.18, 0.22}, white{1, 1, 1};
 constexpr int rim_width = 36, line_height = 34, field_row = 48;  // [px], in large pictures
 
-/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is invisible on white.
-const std::array<Colour, 6> palette{Colour{0.00, 0.45, 0.70}, Colour{0.84, 0.37, 0.00}, Colour{0.00, 0.62, 0.45},
-                                    Colour{0.80, 0.47, 0.65}, Colour{0.34, 0.71, 0.91}, Colour{0.90, 0.62, 0.00}};
-
-struct Arrows {
-  const char* name;
-  Colour colour;
-};
-/// Indexed by Giver.
-const std::array<Arrows, 4> arrows{Arrows{"joint", {0.36, 0.38, 0.46}}, Arrows{"contact", {0.80, 0.16, 0.14}},
-                                   Arrows{"spring", {0.45, 0.35, 0.10}}, Arrows{"load", {0.50, 0.18, 0.62}}};
+Colour colour_of(const Rgb& rgb) { return Colour(rgb[0], rgb[1], rgb[2]) / 255.0; }
 
 const Colour impact_colour{0.90, 0.10, 0.45};
 constexpr double impact_size = 9;  ///< radius of the strongest [px], in large pictures
@@ -43,12 +34,7 @@ std::map<int, Colour> body_colours(const Drawing& drawing) {
   for (const DrawnLine& line : drawing.lines)
     if (line.part == Part::link) colours[line.owner] = ink;
   for (const DrawnBody& body : drawing.bodies) colours[owner_of(drawing, body)] = ink;
-  std::size_t n = 0;
-  for (auto& [owner, colour] : colours) {
-    const auto o = static_cast<std::size_t>(owner);
-    const auto own = o < drawing.colours.size() ? drawing.colours[o] : std::nullopt;
-    colour = own ? Colour((*own)[0] / 255.0, (*own)[1] / 255.0, (*own)[2] / 255.0) : palette[n++ % palette.size()];
-  }
+  for (auto& [owner, colour] : colours) colour = colour_of(body_colour(drawing, static_cast<std::size_t>(owner)));
   return colours;
 }
 
@@ -120,8 +106,8 @@ void FramePicture::note_scales(const Drawing& drawing) {
   if (usual_force_ > 0) {
     const double force = round_length(usual_force_);
     add(Note::forces, quantity(force, "N"), ink, force / usual_force_ * arrow_pixels());
-    for (std::size_t k = 0; k < arrows.size(); ++k)
-      if (givers_[k]) add(Note::words, arrows[k].name, arrows[k].colour, 0);
+    for (std::size_t k = 0; k < givers_.size(); ++k)
+      if (givers_[k]) add(Note::words, giver_names[k], colour_of(arrow_palette[k]), 0);
   }
   const auto visible = [&](const PlacedImpact& impact) { return world_.contains(impact.at); };
   if (std::ranges::any_of(impacts_, visible)) add(Note::impacts, "impacts", ink, 2 * impact_size * small_);
@@ -299,7 +285,7 @@ void FramePicture::draw_joint(const DrawnLine& line, const std::vector<Vector2d>
 void FramePicture::draw_forces(const Drawing& drawing) {
   if (!style_.forces) return;
   for (const DrawnForce& f : drawing.forces) {
-    const Colour& colour = arrows.at(static_cast<std::size_t>(f.giver)).colour;
+    const Colour colour = colour_of(arrow_palette.at(static_cast<std::size_t>(f.giver)));
     const Vector2d at = place(f.at), way = arrow_of(f);
     constexpr double worth_it = 4, share = 0.02;  // [px], of the largest couple
     if (way.norm() > worth_it) canvas_->arrow(at, at + way, 4 * small_, colour);

@@ -13,6 +13,7 @@
 #include "framework/common/file_names.h"
 #include "framework/common/index.h"
 #include "framework/configuration/assemble.h"
+#include "framework/drawing/palette.h"
 
 namespace pintle::app {
 
@@ -108,7 +109,7 @@ struct ViewSession::Assembled {
   Json json() const {
     const Drawing drawn = drawing();
     Json colours = Json::array(), drivers = Json::array();
-    for (const auto& colour : drawn.colours) colours.push_back(colour ? Json(*colour) : Json());
+    for (std::size_t b = 0; b < model.system.bodies.size(); ++b) colours.push_back(body_colour(drawn, b));
     for (std::size_t k = 0; k < model.system.joints.size(); ++k)
       if (is_driver(model.system.joints[k])) drivers.push_back(model.system.joint_names[k]);
     return {{"title", scene.title},         {"length", model.system.length},

@@ -3,7 +3,6 @@
 // A scene as the server assembles it. The server finds every pose; this page draws what it is told, and tells what is dragged where.
 
 const parts = {link: 0, joint: 1, journal: 2, bearing: 3, spring: 4, guide: 5, trace: 6, cylinder: 7, hatch: 8};
-const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 const element = (id) => document.getElementById(id);
 const canvas = element("stage");
 const context = canvas.getContext("2d");
@@ -133,10 +132,7 @@ function trace({points, closed}) {
   if (closed) context.closePath();
 }
 
-function bodyColour(owner) {
-  const own = scene.colours[owner];
-  return own ? `rgb(${own[0]}, ${own[1]}, ${own[2]})` : palette[owner % palette.length];
-}
+const bodyColour = (owner) => `rgb(${scene.colours[owner].join(", ")})`;
 
 function stroke(style, width) {
   context.strokeStyle = style;

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "framework/drawing/palette.h"
 #include "framework/drawing/vtk_cell.h"
 
 namespace pintle {
@@ -92,7 +93,7 @@ void add_owners(const Drawing& drawing, const LineArrays& arrays, VtuText& vtu) 
     assert(owner >= 0 && o < drawing.owners.size());
     names.push_back(drawing.owners[o]);
     if (drawing.colours.empty()) continue;
-    const Rgb rgb = o < drawing.colours.size() ? drawing.colours[o].value_or(grey) : grey;
+    const Rgb rgb = o < drawing.colours.size() ? body_colour(drawing, o) : grey;
     colours.insert(colours.end(), rgb.begin(), rgb.end());
   }
   vtu.add(VtuText::on_cells, "owner", arrays.owners);

@@ -4,12 +4,15 @@
 #include <array>
 #include <cassert>
 #include <cstdio>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "framework/common/file.h"
 #include "framework/common/file_names.h"
 #include "framework/common/text.h"
 #include "framework/drawing/frame_text.h"
+#include "framework/drawing/palette.h"
 #include "framework/drawing/paraview_macro.h"
 #include "framework/drawing/vtk_encoder.h"
 #include "meshes/module.h"
@@ -44,6 +47,36 @@ void write_collection(const fs::path& path, const std::vector<CollectedFile>& fi
   pvd += "  </Collection>\n</VTKFile>\n";
   write_text(path, pvd);
 }
+
+namespace {
+
+/// As a list in Python, of the channels from 0 to 1.
+template <std::size_t n>
+std::string python(const std::array<Rgb, n>& colours) {
+  std::string out;
+  for (const Rgb& rgb : colours) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "(%.3f, %.3f, %.3f)", rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+    out += (out.empty() ? "[" : ", ") + std::string(text.data());
+  }
+  return out + "]";
+}
+
+std::string python(const std::array<const char*, 4>& names) {
+  std::string out;
+  for (const char* const name : names) out += (out.empty() ? "[\"" : ", \"") + std::string(name) + "\"";
+  return out + "]";
+}
+
+std::string paraview_script() {
+  std::string out = paraview_macro;
+  const std::pair<std::string, std::string> written[] = {
+      {"BODY_PALETTE", python(body_palette)}, {"ARROW_PALETTE", python(arrow_palette)}, {"GIVERS", python(giver_names)}};
+  for (const auto& [word, text] : written) out.replace(out.find(word), word.size(), text);
+  return out;
+}
+
+}  // namespace
 
 struct FrameWriter::Bodies {
   struct Kept {
@@ -142,7 +175,7 @@ void FrameWriter::finish(const std::vector<DrawnImpact>& impacts) {
   }
   std::ranges::stable_sort(files_, {}, &CollectedFile::t);
   write_collection(directory_ / "mechanism.pvd", files_);
-  write_text(directory_ / "mechanism.py", paraview_macro);
+  write_text(directory_ / "mechanism.py", paraview_script());
 }
 
 }  // namespace pintle

@@ -107,7 +107,7 @@ struct Drawing {
 /// | `couple [N m]`           | points | likewise, a number                                       |
 /// | `parts`, `owners`        | frame  | the names of the two numberings                          |
 /// | `colours`                | frame  | #rrggbb of the owners that the scene gives one, if any   |
-/// | `colour`                 | cells  | the same in red, green, blue, 0 to 255; grey for others  |
+/// | `colour`                 | cells  | as drawn: red, green, blue, 0 to 255; grey if no body's  |
 /// | `TimeValue`              | frame  | t [s]                                                    |
 /// | `clearance exaggeration` | frame  | drawn clearance over true clearance                      |
 ///

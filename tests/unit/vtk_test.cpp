@@ -1,4 +1,10 @@
 // Frames of lines and forces, and the list of all frames of a run.
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <regex>
+
+#include "framework/drawing/palette.h"
 #include "tests/unit/frame_files.h"
 
 namespace pintle_test {
@@ -91,7 +97,7 @@ TEST(Frame, KeepsNumbersInTheTypesThatItsReadersKnow) {
   EXPECT_EQ(colour->GetDataType(), VTK_UNSIGNED_CHAR);
   ASSERT_EQ(colour->GetNumberOfComponents(), 3);
   EXPECT_EQ(colour->GetComponent(0, 2), 128);
-  EXPECT_EQ(colour->GetComponent(1, 0), 96);  // grey, where the scene gives none
+  EXPECT_EQ(colour->GetComponent(1, 0), body_palette[1][0]);  // where the scene gives none
   EXPECT_EQ(names(grid, "colours"), (std::vector<std::string>{"#ff0080", ""}));
 }
 
@@ -142,6 +148,81 @@ TEST(FrameWriter, ListsPathsAndImpactsOfTheWholeRunWithEveryFrame) {
   EXPECT_EQ(impacts->GetPointData()->GetArray("peak force [N]")->GetTuple1(0), 800);
   EXPECT_EQ(impacts->GetPointData()->GetArray("time [s]")->GetTuple1(1), 2);
   EXPECT_EQ(vtkStringArray::SafeDownCast(impacts->GetCellData()->GetAbstractArray("name"))->GetValue(0), "gudgeon pin");
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+/// The first groups of all matches.
+std::vector<std::string> found(const std::string& text, const std::string& pattern) {
+  const std::regex words(pattern);
+  std::vector<std::string> out;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), words); match != std::sregex_iterator(); ++match)
+    out.push_back((*match)[1]);
+  return out;
+}
+
+// What mechanism.py asks for is in the files that it reads.
+TEST(ParaviewMacro, NamesArraysAndPartsThatFramesHold) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  for (const double t : {0.0, 1.0}) {
+    Drawing d = flexible(t, {"rod"});
+    d.colours = {Rgb{255, 0, 128}, std::nullopt};
+    d.touching = {{"hit", {0, 0}}};
+    writer.add(d);
+  }
+  writer.finish({{0, 0.5, 0.5, 800}});
+  std::string files;
+  for (const auto& entry : fs::directory_iterator(folder.path / "frames")) files += text_of(entry.path());
+  const std::string macro = text_of(folder.path / "mechanism.py");
+
+  const std::string opened = R"x((?:"CELLS", |"POINTS", |Data\[|GetArray\(|names_of\(lines, |cell_values\(\w+, )"([^"]+)")x";
+  const std::vector<std::string> arrays = found(macro, opened);
+  EXPECT_GT(arrays.size(), 10U);
+  for (const std::string& name : arrays)
+    EXPECT_TRUE(name.starts_with("No ") || name == "arrow" || files.find("Name=\"" + name + "\"") != std::string::npos) << name;
+
+  const std::vector<std::string> known = names(read(folder.path / "frames/00000.vtu"), "parts");
+  std::vector<std::string> parts = found(macro, R"x(": \["([^"]+)"\])x");
+  for (const std::string& list : found(macro, R"x(parts_of\(lines, "[^"]+"((?:, "[^"]+")+)\))x"))
+    for (const std::string& part : found(list, "\"([^\"]+)\"")) parts.push_back(part);
+  EXPECT_GT(parts.size(), 10U);
+  for (const std::string& part : parts) EXPECT_TRUE(std::ranges::count(known, part)) << part;
+}
+
+TEST(ParaviewMacro, HasThePalette) {
+  const Folder folder;
+  FrameWriter writer(folder.path);
+  writer.add(drawing(0));
+  writer.finish();
+  const std::string macro = text_of(folder.path / "mechanism.py");
+  EXPECT_EQ(found(macro, "(\\(\\d\\.\\d{3}, \\d\\.\\d{3}, \\d\\.\\d{3}\\))").size(), body_palette.size() + arrow_palette.size());
+  EXPECT_EQ(macro.find("PALETTE"), std::string::npos);
+}
+
+/// Lightness and hue of CIELAB, from sRGB.
+std::array<double, 3> lab(const Rgb& rgb) {
+  std::array<double, 3> linear{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double c = rgb[i] / 255.0;
+    linear[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  }
+  const auto [r, g, b] = linear;
+  const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+  const double x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505), y = f(0.2126 * r + 0.7152 * g + 0.0722 * b),
+               z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+// The least difference that can be seen is 2.3.
+TEST(Palette, HasTwelveColoursTenTimesAsFarApartAsCanBeSeen) {
+  EXPECT_GE(body_palette.size(), 12U);
+  for (std::size_t i = 0; i < body_palette.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto a = lab(body_palette[i]), b = lab(body_palette[j]);
+      EXPECT_GT(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 10 * 2.3) << i << " and " << j;
+    }
 }
 
 TEST(FrameWriter, LeavesNothingHalfWritten) {
