@@ -15,6 +15,16 @@ render = "--render" in sys.argv and sys.argv.remove("--render") is None
 examples = Path(__file__).resolve().parents[2] / "examples"
 
 
+def has_paraview():
+    """Debian's pvbatch comes without the modules that it runs scripts with."""
+    if not (shutil.which("pvbatch") and shutil.which("xvfb-run")):
+        return False
+    with tempfile.NamedTemporaryFile("w", suffix=".py") as script:
+        script.write("import paraview.simple\n")
+        script.flush()
+        return subprocess.run(["pvbatch", script.name], capture_output=True).returncode == 0
+
+
 def run(place, scene):
     out = place / scene
     subprocess.run([pintle, "run", examples / f"{scene}.yaml", "--out", out, "-q"], check=True)
@@ -37,14 +47,10 @@ class Macro(unittest.TestCase):
         shown = {"slider_crank_clearance": ("0072b2", "d55e00", "009e73", "5c6175", "cc2924"),
                  "four_bar_flexible": ("0072b2", "009e73", "5c6175"),
                  "rear_suspension": ("d55e00", "5c6175", "cc2924", "8a6a1a"),
-                 "statics": ("0072b2", "9940bf")}
+                 "knuckle_press": ("5c6175", "9940bf")}
         for scene, colours in shown.items():
             with self.subTest(scene):
-                if scene == "statics":
-                    subprocess.run([pintle, "statics", examples / "statics_lever.yaml", "--out", self.place / scene, "-q"], check=True)
-                    macro = self.place / scene / "mechanism.py"
-                else:
-                    macro = run(self.place, scene)
+                macro = run(self.place, scene)
                 picture = self.place / f"{scene}.png"
                 done = subprocess.run(["xvfb-run", "-a", "pvbatch", macro, picture], capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -53,12 +59,12 @@ class Macro(unittest.TestCase):
                 for colour in colours:
                     wanted = [int(colour[i:i + 2], 16) for i in (0, 2, 4)]
                     near = (abs(pixels - wanted).max(axis=2) <= 12).sum()
-                    self.assertGreater(near, 10, colour)
+                    self.assertGreater(near, 4, colour)
 
 
 if __name__ == "__main__":
     if render:
-        if not (shutil.which("pvbatch") and shutil.which("xvfb-run")):
+        if not has_paraview():
             sys.exit(77)
         import matplotlib.image
     unittest.main()
