@@ -44,6 +44,7 @@ constexpr const char* what_linearize_writes =
     "Linearizes the motion about a state. Contacts that are closed there count with the slope of their laws. It writes\n"
     "  linearized.csv, .json   frequency, damping ratio, decay, root of each mode, and the part that moves most\n"
     "  shapes.csv              the shapes, coordinate by coordinate\n"
+    "  mode_motions.csv        where the bodies are in each mode, enlarged, through a period; pintle report shows it\n"
     "  A.csv B.csv C.csv D.csv x' = A x + B u, y = C x + D u, states, inputs and outputs named\n"
     "  mode_01/mechanism.pvd … with --frames, an animation of each mode for ParaView\n"
     "docs/linearize.md explains each of them. Exit codes: see pintle --help\n";

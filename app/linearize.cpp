@@ -134,7 +134,7 @@ int linearize(const Options& options) {
 
   now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
-    write_linearization(folder, scene, lin, options.count);
+    write_linearization(folder, scene, model, lin, options.count);
     if (options.frames > 0) write_animations(folder, scene, model, lin, options.count, options.frames);
   });
   if (options.json) {

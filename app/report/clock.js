@@ -15,6 +15,7 @@ class Clock {
     this.listeners = [];
     this.playing = false;
     this.seconds = 8;  // that the whole motion takes to play
+    this.repeats = false;
   }
 
   listen(listener) {
@@ -42,6 +43,12 @@ class Clock {
     this.set(this.t[Math.min(Math.max(i, 0), this.t.length - 1)]);
   }
 
+  /// "2.500 ms"
+  text() {
+    const {factor, unit} = scaleFor(this.end, "s");
+    return `${(this.time * factor).toFixed(3)} ${unit}`;
+  }
+
   toggle() {
     this.playing = !this.playing;
     if (this.playing && this.time >= this.end) this.time = this.begin;
@@ -55,8 +62,8 @@ class Clock {
     const passed = this.last === null ? 0 : (now - this.last) / 1000;
     this.last = now;
     const time = this.time + (passed * (this.end - this.begin)) / this.seconds;
-    if (time >= this.end) this.playing = false;
-    this.set(time);
+    if (time >= this.end && !this.repeats) this.playing = false;
+    this.set(time >= this.end && this.repeats ? this.begin + ((time - this.begin) % (this.end - this.begin)) : time);
     requestAnimationFrame((next) => this.advance(next));
   }
 

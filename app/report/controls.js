@@ -114,9 +114,7 @@ function showTransport(clock) {
   byId("play").textContent = clock.playing ? "❚❚" : "▶";
   byId("play").ariaLabel = clock.playing ? "Pause" : "Play";
   byId("scrub").value = clock.end > clock.begin ? (clock.time - clock.begin) / (clock.end - clock.begin) : 0;
-  const {factor, unit} = scaleFor(clock.end, "s");
-  byId("scrub").ariaValueText = `${plain(clock.time * factor, 5)} ${unit}`;
-  byId("clock").textContent = `${(clock.time * factor).toFixed(3)} ${unit}`;
+  byId("scrub").ariaValueText = byId("clock").textContent = clock.text();
 }
 
 /// The impacts and the scene's events above the slider.

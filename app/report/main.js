@@ -45,7 +45,8 @@ class Page {
     this.data = data;
     this.table = readTable(data.trajectory);
     const events = data.events?.rows ?? [];
-    this.clock = new Clock(this.table.poses.t, events.map((row) => row[1]), data.actions?.rows ?? []);
+    const {t} = this.table.poses;
+    this.clock = data.modes ? new ModeClock(t) : new Clock(t, events.map((row) => row[1]), data.actions?.rows ?? []);
     this.motion = new Motion(data.model, this.table.poses);
     this.stage = new Stage(byId("canvas"), this.motion);
     this.events = data.events ? new EventTable(this.clock, data.events, "impact", "strongest") : null;
@@ -66,6 +67,10 @@ class Page {
         `All ${this.table.rows} rows of trajectory.csv.` :
         `${this.table.rows} rows of trajectory.csv: for each short stretch, the least and greatest values of every column.`;
     byId("add-plot").onclick = () => pickColumn("Plot a column", this.table.columns, (name) => this.addPlot([name]).draw());
+    byId("plots").hidden = !this.overTime;
+    byId("transport").hidden = byId("speed").parentElement.hidden = this.table.poses.t.length < 2;
+    if (this.data.modes) listModes(this.clock, this.data.modes);
+    if (this.data.tables) new StudyPage(this.data).show();
     listenToTransport(this);
     listenToOptions(this);
     listenToPointer(this);
@@ -158,7 +163,7 @@ const consoleError = console.error;
 console.error = (...what) => (errors.push(what.join(" ")), consoleError(...what));
 window.addEventListener("securitypolicyviolation", (event) => errors.push(`blocked: ${event.violatedDirective}`));
 const data = JSON.parse(byId("data").textContent);
-const page = data.tables ? new StudyPage(data) : new Page(data);
+const page = data.model ? new Page(data) : new StudyPage(data);
 page.start();
 if (location.hash === "#check")
   queueMicrotask(() => reportShown(page));  // once plots are drawn

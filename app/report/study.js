@@ -32,9 +32,13 @@ class StudyPage {
   start() {
     document.querySelector("main").hidden = true;
     byId("help-button").hidden = true;
-    byId("study").hidden = false;
     showHead(this.data.title, this.data.run);
     showFacts(this.data.run);
+    this.show();
+  }
+
+  show() {
+    byId("study").hidden = false;
     this.tableChooser();
     byId("study-clear").onclick = () => (this.brushes.clear(), this.draw());
     byId("study").addEventListener("pointerover", ({target}) => this.point(target.closest("[data-row]")?.dataset.row));
@@ -52,6 +56,8 @@ class StudyPage {
 
   /// Fills what chooses from this table, and draws.
   choose() {
+    const plotted = this.varying.filter(({numeric}) => numeric).length > 1;
+    byId("study-parallel").hidden = byId("study-hint").hidden = byId("study-scatter").parentElement.hidden = !plotted;
     byId("study-count").textContent = this.rows.length < this.all ?
         `${this.rows.length} of ${this.all} rows: evenly spaced ones, and those with an extreme value` :
         `${this.rows.length} rows`;

@@ -211,4 +211,13 @@ std::vector<DrawnImpact> drawn_impacts(const std::vector<Impact>& impacts) {
   return out;
 }
 
+std::vector<std::string> pose_columns(const Model& model) {
+  std::vector<std::string> out;
+  for (const Body& body : model.system.bodies) {
+    for (const char* const column : {".x", ".y", ".angle"}) out.push_back(body.name + column);
+    for (int i = 1; i <= body.modes(); ++i) out.push_back(body.name + ".mode " + std::to_string(i));
+  }
+  return out;
+}
+
 }  // namespace pintle

@@ -23,4 +23,7 @@ Drawing draw(const Model&, const Drafting&, const State&, const Equations&);
 
 std::vector<DrawnImpact> drawn_impacts(const std::vector<Impact>&);
 
+/// Names of the columns of trajectory.csv, without units, that place the bodies of a drawing.
+std::vector<std::string> pose_columns(const Model&);
+
 }  // namespace pintle

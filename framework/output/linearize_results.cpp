@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <numbers>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/common/file.h"
 #include "framework/common/text.h"
+#include "framework/mechanism/drawing.h"
+#include "framework/mechanism/trajectory.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {
@@ -75,6 +79,31 @@ std::string shapes_csv(const Linearization& lin, int count) {
   return out;
 }
 
+/// The enlarged motion of the first modes through a period each: where the bodies are, in the columns of trajectory.csv.
+Table mode_motions(const Model& model, const Linearization& lin, int count) {
+  constexpr int phases = 24;
+  const Table all = trajectory_table(model);
+  Table out{{"mode", "phase [rad]"}, {}};
+  std::vector<std::size_t> kept;
+  const std::vector<std::string> names = pose_columns(model);
+  const std::set<std::string> wanted(names.begin(), names.end());
+  for (std::size_t c = 0; c < all.columns(); ++c)
+    if (wanted.contains(all.header[c].substr(0, all.header[c].rfind(" [")))) kept.push_back(c), out.header.push_back(all.header[c]);
+  Equations eq(model.system);
+  Eigen::VectorXd dy(model.system.n_y());
+  for (std::size_t k = 0; k < std::min(lin.modes.size(), static_cast<std::size_t>(std::max(count, 0))); ++k)
+    for (int i = 0; i <= phases; ++i) {
+      const double phase = 2 * std::numbers::pi * i / phases;
+      const State state = displaced(model, lin, lin.modes[k], phase);
+      evaluate(model.system, state, eq, dy);
+      Table row = all;
+      record(model, state, eq, row);
+      out.data.push_back(static_cast<double>(k + 1)), out.data.push_back(phase);
+      for (const std::size_t c : kept) out.data.push_back(row.data[c]);
+    }
+  return out;
+}
+
 }  // namespace
 
 std::string linearized_json(const Scene& scene, const Linearization& lin) {
@@ -117,10 +146,11 @@ std::string linearized_json(const Scene& scene, const Linearization& lin) {
   return text_with_scene(out, scene);
 }
 
-void write_linearization(const fs::path& directory, const Scene& scene, const Linearization& lin, int shapes) {
+void write_linearization(const fs::path& directory, const Scene& scene, const Model& model, const Linearization& lin, int shapes) {
   const StateSpace& s = lin.space;
   write_text(directory / "linearized.csv", modes_csv(lin));
   write_text(directory / "shapes.csv", shapes_csv(lin, shapes));
+  write_csv(directory / "mode_motions.csv", mode_motions(model, lin, shapes));
   write_text(directory / "A.csv", matrix_csv("rate of", s.states, s.states, s.A));
   write_text(directory / "B.csv", matrix_csv("rate of", s.states, s.inputs, s.B));
   write_text(directory / "C.csv", matrix_csv("output", s.outputs, s.states, s.C));

@@ -207,17 +207,8 @@ Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_b
   return out;
 }
 
-std::vector<std::string> needed_columns(const Model& model) {
-  std::vector<std::string> out;
-  for (const Body& body : model.system.bodies) {
-    for (const char* const column : {".x", ".y", ".angle"}) out.push_back(body.name + column);
-    for (int i = 1; i <= body.modes(); ++i) out.push_back(body.name + ".mode " + std::to_string(i));
-  }
-  return out;
-}
-
 std::vector<std::string> drawn_columns(const Model& model) {
-  std::vector<std::string> out = needed_columns(model);
+  std::vector<std::string> out = pose_columns(model);
   const System& system = model.system;
   const auto add_force = [&](const std::string& name, const std::string& on) {
     for (const char* const column : {".fx on ", ".fy on ", ".torque on "}) out.push_back(name + column + on);

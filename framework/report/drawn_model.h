@@ -18,7 +18,4 @@ nlohmann::ordered_json drawn_model_json(const Scene&, const Model&, std::size_t 
 /// Names of the columns, without units, for the positions of bodies and for the drawing.
 std::vector<std::string> drawn_columns(const Model&);
 
-/// The columns, without units, that every drawing needs.
-std::vector<std::string> needed_columns(const Model&);
-
 }  // namespace pintle

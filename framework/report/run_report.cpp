@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 /// Results of a moving scene.
 std::optional<Description> motion_in(const fs::path& directory) {
-  for (const char* const question : {"inverse", "kinematics", "run"}) {
+  for (const char* const question : {"inverse", "kinematics", "run", "statics"}) {
     auto out = description(directory, question);
     if (!out) continue;
     if (!out->json.contains("scene") || !out->json["scene"].is_object())
@@ -42,6 +42,7 @@ Scene scene_of(const Description& results) {
   std::string file = results.json.value("file", std::string());  // meshes and tables are next to it
   if (file.empty()) file = results.file.string();
   Scene scene = read_scene_text(results.json["scene"].dump(), file, {}, fs::path(file).parent_path());
+  if (results.question == "statics") scene = ready_for_statics(std::move(scene));
   scene = results.question == "kinematics" ? ready_for_kinematics(std::move(scene)) : with_pieces(std::move(scene));
   scene.output.frames = std::max(scene.output.frames, 2);  // so that shapes for drawing are kept
   return scene;
@@ -146,17 +147,24 @@ ReportLimits report_limits(double bytes) {
 
 namespace {
 
+std::string title_of(const Scene& scene, const fs::path& directory) {
+  return scene.title.empty() ? directory.filename().string() : scene.title;
+}
+
 std::string motion_page(const Description& results, const fs::path& directory, const ReportLimits& limits) {
   const Scene scene = scene_of(results);
   const Model model = build(scene);
-  const ReducedTable trajectory = reduced_by_column(directory / "trajectory.csv", limits.trajectory, drawn_columns(model));
-  require_columns(directory / "trajectory.csv", trajectory, needed_columns(model));
-  const std::string title = scene.title.empty() ? directory.filename().string() : scene.title;
+  const bool moves = results.question != "statics";
+  const fs::path file = directory / (moves ? "trajectory.csv" : "statics.csv");
+  const ReducedTable trajectory = moves ? reduced_by_column(file, limits.trajectory, drawn_columns(model)) : single_row(file);
+  require_columns(file, trajectory, pose_columns(model));
+  const std::string title = title_of(scene, directory);
   Json run = facts(results, limits.text);
   if (is_unfinished(directory) && !trajectory.sheets.empty() && !trajectory.sheets[0].t.empty())
     run["reached [s]"] = trajectory.sheets[0].t.back();
   Json out{
       {"title", title}, {"run", run}, {"model", drawn_model_json(scene, model, limits.meshes)}, {"trajectory", table_json(trajectory)}};
+  if (!moves) out["tables"] = tables_json(results, limits.rows);
   if (results.question == "run" || fs::exists(directory / "ledger.csv")) {
     out["ledger"] = table_json(reduced_by_row(directory / "ledger.csv", limits.ledger));
     out["events"] = events_json(directory / "events.csv", limits.events);
@@ -165,14 +173,34 @@ std::string motion_page(const Description& results, const fs::path& directory, c
   return page(title, json_text(out, -1));
 }
 
+/// The mechanism in each mode of a linearization, one after another.
+std::string mode_page(const Description& results, const fs::path& directory, const ReportLimits& limits) {
+  const Scene scene = scene_of(results);
+  const Model model = build(scene);
+  const fs::path file = directory / "mode_motions.csv";
+  const ReducedTable motions = mode_motions(file);
+  require_columns(file, motions, pose_columns(model));
+  const std::string title = title_of(scene, directory);
+  return page(title, json_text(Json{{"title", title},
+                                    {"run", facts(results, limits.text)},
+                                    {"model", drawn_model_json(scene, model, limits.meshes)},
+                                    {"trajectory", table_json(motions)},
+                                    {"modes", results.json.value("modes", Json::array())},
+                                    {"tables", tables_json(results, limits.rows)}},
+                               -1));
+}
+
 }  // namespace
 
 std::string report_page(const fs::path& directory, const ReportLimits& limits) {
   if (const auto results = motion_in(directory)) return motion_page(*results, directory, limits);
+  if (const auto results = description(directory, "linearized"); results && fs::exists(directory / "mode_motions.csv"))
+    return mode_page(*results, directory, limits);
   if (const auto out = table_page(directory, limits.rows, limits.text)) return *out;
   throw ResultsError(directory.string() + ": contains no results" +
                      (fs::is_directory(directory) ? "" : ", because there is no such folder") +
-                     "; name a folder written by `pintle run`, statics, kinematics, inverse, linearize, modes, sweep, fit, sensitivity, nonlinear or tradeoff" +
+                     "; name a folder written by `pintle run`, statics, kinematics, inverse, linearize, modes, sweep, fit, sensitivity, "
+                     "nonlinear or tradeoff" +
                      (fs::exists(directory / "trajectory.csv") ? ". It has a trajectory.csv: pintle plot shows its columns" : ""));
 }
 

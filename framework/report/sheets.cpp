@@ -1,8 +1,10 @@
 #include "framework/report/sheets.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 namespace pintle {
@@ -169,6 +171,36 @@ ReducedTable reduced_by_row(const std::filesystem::path& path, std::size_t most_
   }
   end_stretch();
   if (!last.empty() && sheet.t.back() != last[0]) append(sheet, last, kept);
+  return out;
+}
+
+ReducedTable single_row(const std::filesystem::path& path) {
+  CsvReader file(path);
+  ReducedTable out{.rows = 1, .whole = true, .sheets = {Sheet{}}, .poses = {}};
+  Sheet& sheet = out.sheets.front();
+  sheet.t = {0};
+  for (std::vector<std::string> fields; file.next(fields);) {
+    const ColumnName column = column_name(fields[0]);
+    double value = 0;
+    if (const auto [end, error] = std::from_chars(fields[1].data(), fields[1].data() + fields[1].size(), value); error != std::errc())
+      file.fail("\"" + fields[1] + "\" is not a number");
+    if (column.name == "t")
+      sheet.t = {value};
+    else
+      sheet.columns.push_back(column), sheet.values.push_back({value});
+  }
+  return out;
+}
+
+ReducedTable mode_motions(const std::filesystem::path& path) {
+  CsvReader file(path);
+  std::vector<std::size_t> kept = all_but_time(file.header().size());
+  kept.erase(kept.begin());
+  ReducedTable out{.rows = 0, .whole = true, .sheets = {sheet_of(file.header(), kept)}, .poses = {}};
+  for (Row row; file.next(row); ++out.rows) {
+    row[0] = 2 * (row[0] - 1) + row[1] / (2 * std::numbers::pi);
+    append(out.sheets.front(), row, kept);
+  }
   return out;
 }
 

@@ -35,4 +35,10 @@ ReducedTable reduced_by_column(const std::filesystem::path&, const SheetLimits&,
 /// The same in one sheet, of the complete rows in which a column has its least or greatest value of a stretch.
 ReducedTable reduced_by_row(const std::filesystem::path&, std::size_t most_values);
 
+/// A file with the columns quantity and value, as a table of one row. @throws ResultsError
+ReducedTable single_row(const std::filesystem::path&);
+
+/// A file with the columns mode and phase, as one table: in a period of mode k, counted from 0, the time runs from 2k to 2k + 1.
+ReducedTable mode_motions(const std::filesystem::path&);
+
 }  // namespace pintle

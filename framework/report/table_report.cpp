@@ -39,6 +39,7 @@ const std::vector<TableKind>& kinds() {
       {"sweep", {{"sweep.csv"}}},
       {"tradeoff", {{"tradeoff.csv", "time", "error", "", true}}},
       {"linearized", {{"linearized.csv", "frequency", "damping ratio", "kind"}}},
+      {"statics", {{"statics.csv"}}},
       {"modes", {{"modes.csv", "mode", "frequency"}, {"reduced.csv", "mode", "frequency"}}}};
   return all;
 }
@@ -115,17 +116,25 @@ bool has_table_page(const fs::path& directory) {
   return std::ranges::any_of(kinds(), [&](const TableKind& kind) { return fs::exists(directory / (std::string(kind.name) + ".json")); });
 }
 
+TableJson tables_json(const Description& results, std::size_t most_rows) {
+  const fs::path directory = results.file.parent_path();
+  TableJson out = TableJson::array();
+  for (const TableKind& kind : kinds())
+    if (kind.name == results.question)
+      for (const TableFile& table : kind.tables)
+        if (fs::exists(directory / table.file)) out.push_back(table_of(table, results.json, directory / table.file, most_rows));
+  if (out.empty()) throw ResultsError(results.file.string() + ": its tables are missing from the folder; run it again");
+  return out;
+}
+
 std::optional<std::string> table_page(const fs::path& directory, std::size_t most_rows, std::size_t most_text) {
   for (const TableKind& kind : kinds()) {
     const auto results = description(directory, kind.name);
     if (!results) continue;
-    TableJson tables = TableJson::array();
-    for (const TableFile& table : kind.tables)
-      if (fs::exists(directory / table.file)) tables.push_back(table_of(table, results->json, directory / table.file, most_rows));
-    if (tables.empty()) throw ResultsError(directory.string() + ": has " + results->file.filename().string() + " but no table");
     std::string title = results->json.value("title", std::string());
     if (title.empty()) title = results->json.value("file", std::string(kind.name));
-    return page(title, json_text(TableJson{{"title", title}, {"run", facts(*results, most_text)}, {"tables", tables}}, -1));
+    const TableJson data{{"title", title}, {"run", facts(*results, most_text)}, {"tables", tables_json(*results, most_rows)}};
+    return page(title, json_text(data, -1));
   }
   return {};
 }

@@ -5,10 +5,17 @@
 #include <optional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "framework/report/description.h"
+
 namespace pintle {
 
 /// Whether the folder has such tables.
 bool has_table_page(const std::filesystem::path& directory);
+
+/// The tables of these results. @param most_rows  as below   @throws ResultsError
+nlohmann::ordered_json tables_json(const Description&, std::size_t most_rows);
 
 /// The tables of a `sweep`, `fit`, `sensitivity`, `nonlinear`, `tradeoff`, `linearize` or `modes` as one page; nothing if the folder has none.
 /// @param most_rows  of a longer table, evenly spaced rows are kept, and those with the least or greatest value of a column

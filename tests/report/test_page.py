@@ -53,7 +53,6 @@ class Transport(Driven):
         browser.key("ArrowRight")
         self.assertEqual(browser.get("page.clock.time"), browser.get("page.clock.t[1]"))
 
-
     def test_rows_of_impacts_take_the_keyboard_and_let_it_go(self):
         self.open("worn")
         browser.get("document.querySelector('#impact-table tbody tr').focus()")
@@ -97,7 +96,6 @@ class View(Driven):
             self.assertGreater(after, before)
             self.assertEqual(browser.get(f"byId('{id}').nextElementSibling.textContent"), browser.get(f"`× ${{plain({after}, 3)}}`"))
 
-
     def test_colours_of_stress_reach_to_the_greatest_of_all_rows(self):
         self.open("plate")
         browser.click("#show-stress")
@@ -106,7 +104,6 @@ class View(Driven):
         self.assertGreater(greatest, 0)
         self.assertEqual(browser.get("page.stage.greatestStress"), greatest)
         self.assertEqual(browser.get("byId('colour-most').textContent"), browser.get(f"engineering({greatest}, 'Pa', 3)"))
-
 
     def test_a_click_on_a_joint_or_a_body_lists_its_columns(self):
         joint = "page.stage.px(page.stage.motion.place(page.stage.model.%s.b, page.stage.now))"
@@ -307,6 +304,35 @@ class Study(Driven):
         self.assertEqual(speeds, [150, 200])
         browser.click("#study-clear")
         self.assertEqual(browser.get("document.querySelectorAll('#study-table tbody tr').length"), 4)
+
+
+class OtherResults(Driven):
+    def test_the_chosen_mode_moves_as_its_table_says(self):
+        self.open("modes")
+        names, rows = table("modes/mode_motions.csv")
+        for mode in 1, 3:
+            browser.get(f"((byId('mode').selectedIndex = {mode - 1}), byId('mode').onchange())")
+            browser.click("#step-on")
+            row = [row for row in rows if row[0] == mode][1]
+            shown = browser.get("page.stage.now[1]")
+            self.assertEqual(shown["angle"], row[names.index("coupler.angle")])
+            self.assertEqual(shown["eta"], row[names.index("coupler.mode 1"):][:len(shown["eta"])])
+            self.assertEqual(browser.get("byId('clock').textContent"), "phase 15°")
+            browser.click("#play")
+            browser.wait("page.clock.time < page.clock.begin + 0.03")  # round again
+            browser.click("#play")
+        self.assertEqual(browser.get("page.data.tables[0].file"), "linearized.csv")
+
+    def test_an_equilibrium_is_drawn_with_its_forces_and_values(self):
+        self.open("rest")
+        with open(folder / "rest/statics.csv", newline="") as text:
+            held = dict(list(csv.reader(text))[1:])
+        self.assertEqual(browser.get("page.stage.now[0].angle"), float(held["chassis.angle [rad]"]))
+        arrows = browser.get("page.motion.forces(0, page.stage.now).filter(({name}) => name === 'left coil').map(({force}) => force)")
+        self.assertEqual([arrows[0]["x"], arrows[0]["y"]], [float(held[f"left coil.f{axis} on left lower arm [N]"]) for axis in "xy"])
+        self.assertEqual(browser.get("[byId('transport').hidden, byId('plots').hidden]"), [True, True])
+        shown = browser.get("[...byId('study-table').tBodies[0].rows].map((row) => [...row.cells].map(({title}) => title))")
+        self.assertEqual({name: float(value) for name, value in shown}, {name: float(value) for name, value in held.items()})
 
 
 class Screens(Driven):

@@ -374,7 +374,7 @@ TEST(Linearize, FilesNameStatesInputsAndOutputsWithUnits) {
   const About a(scene);
   const fs::path folder = fs::path(testing::TempDir()) / "linearize_files";
   fs::create_directories(folder);
-  write_linearization(folder, scene, a.lin, 6);
+  write_linearization(folder, scene, a.model, a.lin, 6);
   const auto first_line = [&](const char* name) {
     std::ifstream in(folder / name);
     std::string line;

@@ -94,9 +94,9 @@ LinearizedStart linearized_start(const Scene&, const Model&, const Assembly&);
 /// The state that a run reaches. @throws std::runtime_error  saying when and why the run failed
 State state_at(const Model&, const State& start, double t);
 
-/// linearized.csv, shapes.csv (of the first `shapes` modes), A.csv, B.csv, C.csv, D.csv, linearized.json.
+/// linearized.csv, shapes.csv and mode_motions.csv (of the first `shapes` modes), A.csv, B.csv, C.csv, D.csv, linearized.json.
 /// @throws std::runtime_error  naming the path that cannot be written
-void write_linearization(const std::filesystem::path& directory, const Scene&, const Linearization&, int shapes);
+void write_linearization(const std::filesystem::path& directory, const Scene&, const Model&, const Linearization&, int shapes);
 std::string linearized_json(const Scene&, const Linearization&);
 
 /// The mechanism displaced along a mode at a phase of its period, such that its largest coordinate moves by a tenth of the mechanism's
