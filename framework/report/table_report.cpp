@@ -40,6 +40,7 @@ const std::vector<TableKind>& kinds() {
       {"tradeoff", {{"tradeoff.csv", "time", "error", "", true}}},
       {"linearized", {{"linearized.csv", "frequency", "damping ratio", "kind"}}},
       {"statics", {{"statics.csv"}}},
+      {"static", {{"points.csv", "x", "y"}, {"section_forces.csv"}, {"contacts.csv"}}},
       {"modes", {{"modes.csv", "mode", "frequency"}, {"reduced.csv", "mode", "frequency"}}}};
   return all;
 }
