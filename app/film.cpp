@@ -9,6 +9,7 @@
 #include "app/frames.h"
 #include "app/progress.h"
 #include "app/quantity.h"
+#include "framework/common/text.h"
 
 namespace pintle {
 
@@ -83,8 +84,8 @@ bool write_film(const Drawn& drawn, const FilmPlan& plan) {
   }
   film.finish();
   if (!drawn.quiet)
-    std::cout << "  " << drawn.file.string() << "  " << shown.size() << " pictures of " << picture.width() << " x " << picture.height()
-              << ", " << shown_time(static_cast<double>(shown.size()) / plan.rate) << "\n";
+    std::cout << "  " << drawn.file.string() << "  " << counted(shown.size(), "picture") << " of " << picture.width() << " x "
+              << picture.height() << ", " << shown_time(static_cast<double>(shown.size()) / plan.rate) << "\n";
   return true;
 }
 

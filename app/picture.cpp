@@ -21,6 +21,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "framework/common/file_names.h"
+#include "framework/common/text.h"
 #include "framework/scene/error.h"
 
 namespace {
@@ -47,8 +48,9 @@ const FrameFiles& frame_of(const std::vector<FrameFiles>& frames, const Choice& 
     return *std::ranges::min_element(frames, {}, [&](const FrameFiles& frame) { return std::abs(frame.t - choice.time); });
   }
   if (n < 0 || n >= count)
-    throw std::invalid_argument("--frame: " + choice.drawn.directory.string() + " has " + std::to_string(count) + " frames, 0 to " +
-                                std::to_string(count - 1) + "; asked for " + std::to_string(choice.frame));
+    throw std::invalid_argument("--frame: " + choice.drawn.directory.string() + " has " + counted(frames.size(), "frame") +
+                                (count == 1 ? ", number 0" : ", 0 to " + std::to_string(count - 1)) + "; asked for " +
+                                std::to_string(choice.frame));
   return frames[static_cast<std::size_t>(n)];
 }
 

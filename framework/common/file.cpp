@@ -24,22 +24,22 @@ namespace fs = std::filesystem;
 
 const char* remedy(int error) {
   switch (error) {
-    case ENOSPC: return "make room on that disk, or name another place with --out";
-    case EDQUOT: return "your quota on that disk is used up; make room, or name another place with --out";
+    case ENOSPC: return "make room on that disk, or name another place";
+    case EDQUOT: return "your quota on that disk is used up; make room, or name another place";
     case EFBIG: return "the file would be larger than is allowed; raise the limit (ulimit -f), or write fewer rows (output.every)";
     case EACCES:
-    case EPERM: return "check the permissions of the folder, or name another place with --out";
-    case EROFS: return "the disk is read-only; name another place with --out";
+    case EPERM: return "check the permissions of the folder, or name another place";
+    case EROFS: return "the disk is read-only; name another place";
     case ENAMETOOLONG: return "use a shorter name";
-    case EIO: return "the disk reports an error; check it, and name another place with --out";
+    case EIO: return "the disk reports an error; check it, and name another place";
     case EMFILE:
     case ENFILE: return "too many files are open; raise the limit (ulimit -n)";
     case ENOMEM: return "there is not enough memory";
     case ENOENT: return "its folder does not exist, or was removed in the meantime";
     case ENOTDIR: return "a part of the path is not a folder";
     case EEXIST:
-    case ENOTEMPTY: return "something else was given this name in the meantime; choose another with --out";
-    default: return "name another place with --out";
+    case ENOTEMPTY: return "something else was given this name in the meantime; choose another";
+    default: return "name another place";
   }
 }
 

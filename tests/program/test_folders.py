@@ -161,6 +161,8 @@ class Folders(unittest.TestCase):
                 self.assertIn(done.returncode, (1, 2))
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
                 self.assertTrue(done.stderr.startswith("pintle: " + said), done.stderr)
+                if words[0] in ("picture", "film", "plot"):  # they have no such option
+                    self.assertNotIn("--out", done.stderr)
 
 
 if __name__ == "__main__":

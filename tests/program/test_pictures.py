@@ -16,7 +16,7 @@ from pathlib import Path
 
 pintle = os.path.realpath(sys.argv.pop(1))
 has_pictures = (Path(pintle).parent / "pintle-picture").exists()
-load_colour = (128, 46, 158)
+load_colour = (153, 64, 191)
 impact_colour = (230, 26, 115)
 pushed = """
 bodies: {{bar: {{rigid: {{mass: 1000 kg, inertia: 1000}}, points: {{O: [-1, 0], end: [1, 0.2]}}}}}}
@@ -106,6 +106,15 @@ class Pictures(unittest.TestCase):
         done = self.say("picture", "run", "a.png", "--size", "700x400")
         self.assertEqual((done.returncode, done.stdout), (0, "  a.png  700 x 400\n"), done.stderr)
         self.assertEqual(self.say("picture", "run", "a.png", "-q").stdout, "")
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_one_is_not_many(self):
+        self.run_of(pushed.format(x=1, y=1), "run")
+        (self.place / "lever.yaml").write_text(pushed.format(x=0, y=0).replace("run: {until: 1 ms}", "").replace("output: {frames: 2}", ""))
+        self.assertEqual(self.say("statics", "lever.yaml", "-q", "--out", "rest").returncode, 0)
+        self.assertIn("rest has 1 frame, number 0; asked for 3", self.say("picture", "rest", "a.png", "--frame", "3").stderr)
+        if shutil.which("ffmpeg"):
+            self.assertIn("  1 picture of ", self.say("film", "run", "a.mp4", "--to", "0").stdout)
 
     @unittest.skipUnless(has_pictures, "the program that draws was not built")
     def test_arrows_end_inside(self):
