@@ -146,7 +146,7 @@ def bent_arrow(way):
     """Three quarters of a circle with an arrowhead."""
     angles = [math.radians(a) for a in (*range(0, 271, 10), 238, 270, 238)]
     radii = [1] * 28 + [1.35, 1, 0.65]
-    points = [(0.025 * size * r * math.cos(way * a), 0.025 * size * r * math.sin(way * a), 0) for a, r in zip(angles, radii)]
+    points = [(0.035 * size * r * math.cos(way * a), 0.035 * size * r * math.sin(way * a), 0) for a, r in zip(angles, radii)]
     return PolyLineSource(Points=[x for point in points for x in point])
 
 
