@@ -34,6 +34,14 @@ start: {ball: {at: [0.3, 0.25]}}
 run: {until: 0.4 s}
 output: {frames: 81}
 """
+fourteen = "bodies:\n" + "".join(
+    f"  link {k}: {{rigid: {{mass: 1 kg, inertia: 1}}, pose: {{at: [{k}, 0]}}}}\n" for k in range(1, 15)) + """
+run: {until: 100 ms}
+output: {frames: 2}
+"""
+body_colours = [tuple(bytes.fromhex(c)) for c in (
+    "0072b2", "d55e00", "009e73", "cc79a7", "56b4e9", "e69f00", "961e1e", "6a5cf0", "93a34a", "8a1466", "694b4b", "2d694b")]
+ink, pale_ink = (41, 46, 56), (105, 109, 116)
 gears = """
 bodies:
   sun: {rigid: {mass: 1 kg, inertia: 0.01}, points: {O: [0, 0]}}
@@ -48,8 +56,8 @@ output: {frames: 2}
 """
 
 
-def pixels(file):
-    """Rows of (red, green, blue) of a PNG of 8 bits a colour."""
+def pixels(file, most=8000):
+    """Rows of (red, green, blue) of a PNG of 8 bits a colour, at most so many."""
     data, at, packed = file.read_bytes(), 8, b""
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -61,7 +69,7 @@ def pixels(file):
         at += 12 + length
     step = {2: 3, 6: 4}[colours]
     raw, before, rows = zlib.decompress(packed), bytearray(width * step), []
-    for y in range(height):
+    for y in range(min(height, most)):
         begin = y * (width * step + 1)
         method, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * step])
         for i in range(len(row)):
@@ -115,6 +123,22 @@ class Pictures(unittest.TestCase):
         self.assertIn("rest has 1 frame, number 0; asked for 3", self.say("picture", "rest", "a.png", "--frame", "3").stderr)
         if shutil.which("ffmpeg"):
             self.assertIn("  1 picture of ", self.say("film", "run", "a.mp4", "--to", "0").stdout)
+
+    @unittest.skipUnless(has_pictures, "the program that draws was not built")
+    def test_names_keep_off_the_time(self):
+        self.run_of(fourteen, "out")
+        is_one_of = lambda p, colours: min(p) < 200 and any(max(abs(a - b) for a, b in zip(p, c)) <= 4 for c in colours)
+        for width in ("1400", "800", "500", "300"):
+            self.assertEqual(self.say("picture", "out", "a.png", "--size", width).returncode, 0)
+            rows = pixels(self.place / "a.png", 62 + 3 * 34)
+            both = 0
+            for row in rows:
+                time = [x for x, p in enumerate(row) if is_one_of(p, (ink, pale_ink))]
+                bodies = [x for x, p in enumerate(row) if is_one_of(p, body_colours)]
+                if time and bodies:
+                    both += 1
+                    self.assertLess(max(time) + 10, min(bodies), width)
+            self.assertGreater(both, 2, width)
 
     @unittest.skipUnless(has_pictures, "the program that draws was not built")
     def test_arrows_end_inside(self):
