@@ -28,12 +28,13 @@ ElasticBody checked_body(const Scene& scene, const std::string& name) {
   return e;
 }
 
-std::shared_ptr<BodyMesh> mesh(const SceneSource& source, const std::string& name) {
-  const py::gil_scoped_release free;
-  hold_library_threads();
-  auto out = std::make_shared<BodyMesh>(BodyMesh{source.scene});
-  out->body = checked_body(out->scene, name);
-  return out;
+std::shared_ptr<BodyMesh> mesh(const Source& source, const std::string& name) {
+  return aside([=] {
+    hold_library_threads();
+    auto out = std::make_shared<BodyMesh>(BodyMesh{source->scene});
+    out->body = checked_body(out->scene, name);
+    return out;
+  });
 }
 
 /// The contents of static.vtu, a row for each point.
@@ -56,8 +57,7 @@ Table point_table(const ElasticBody& e, const StaticReport& report) {
   return out;
 }
 
-std::shared_ptr<StaticCase> static_case(const SceneSource& source, const std::string& name) {
-  const py::gil_scoped_release free;
+std::shared_ptr<StaticCase> solved(const SceneSource& source, const std::string& name) {
   hold_library_threads();
   auto out = std::make_shared<StaticCase>(StaticCase{source.scene});
   const Scene& scene = out->scene;
@@ -75,6 +75,10 @@ std::shared_ptr<StaticCase> static_case(const SceneSource& source, const std::st
   for (std::size_t b = 0; b < all.size(); ++b) out->fields.push_back(point_table(*all[b], out->found.bodies[b]));
   out->info = touching ? contact_json(scene, all, out->found) : static_json(scene, out->bodies.front(), out->found.bodies.front());
   return out;
+}
+
+std::shared_ptr<StaticCase> static_case(const Source& source, const std::string& name) {
+  return aside([=] { return solved(*source, name); });
 }
 
 /// One tuple per body: (name, (header, points × columns), points.csv, section_forces.csv or None)

@@ -1,5 +1,6 @@
 // The module pintle._core.
 #include "framework/common/file.h"
+#include "framework/common/stop_point.h"
 #include "framework/report/csv_reader.h"
 #include "meshes/limits.h"
 #include "python/bindings.h"
@@ -23,6 +24,7 @@ void raise_placed(const char* name, const Error& e) {
 }
 
 bool stop_meshing() {
+  if (is_asked_to_stop()) return true;
   const py::gil_scoped_acquire held;
   if (PyErr_CheckSignals() == 0) return false;
   PyErr_Clear();  // MeshingStopped reports it
@@ -83,6 +85,7 @@ PYBIND11_MODULE(_core, m) {
   using namespace pintle::python;
   m.doc() = "Pintle's C++ API as the package pintle uses it.";
   bind_errors(m);
+  bind_aside(m);
   bind_scene(m);
   bind_run(m);
   bind_questions(m);

@@ -27,10 +27,11 @@ struct BodyModes {
   std::string body;
 };
 
-std::shared_ptr<Rest> rest(const SceneSource& source, double at) {
-  const py::gil_scoped_release free;
-  const auto p = prepared(source, Question::statics);
-  return std::make_shared<Rest>(Rest{p, find_equilibrium(p->scene, p->model, p->assembly, at)});
+std::shared_ptr<Rest> rest(const Source& source, double at) {
+  return aside([source, at] {
+    const auto p = prepared(*source, Question::statics);
+    return std::make_shared<Rest>(Rest{p, find_equilibrium(p->scene, p->model, p->assembly, at)});
+  });
 }
 
 /// The state to linearise about, as in `pintle linearize`.
@@ -49,8 +50,7 @@ State about(const SceneSource& source, const Prepared& p, std::optional<double> 
   return state_at(p.model, p.assembly.start, *at);
 }
 
-std::shared_ptr<SmallMotionResult> small_motion(const SceneSource& source, std::optional<double> at, bool at_rest) {
-  const py::gil_scoped_release free;
+std::shared_ptr<SmallMotionResult> linearized(const SceneSource& source, std::optional<double> at, bool at_rest) {
   const auto p = prepared(source, Question::small_motion);
   auto out = std::make_shared<SmallMotionResult>(SmallMotionResult{p, {}});
   const State state = about(source, *p, at, at_rest, *out);
@@ -61,11 +61,16 @@ std::shared_ptr<SmallMotionResult> small_motion(const SceneSource& source, std::
   return out;
 }
 
-std::shared_ptr<BodyModes> modes(const SceneSource& source, const std::string& body, int count) {
-  const py::gil_scoped_release free;
-  hold_library_threads();
-  const ElasticBody e = elastic_body(source.scene, elastic_of(source.scene, body));
-  return std::make_shared<BodyModes>(BodyModes{modes_of(source.scene, e, count), e.scene->name});
+std::shared_ptr<SmallMotionResult> small_motion(const Source& source, std::optional<double> at, bool at_rest) {
+  return aside([=] { return linearized(*source, at, at_rest); });
+}
+
+std::shared_ptr<BodyModes> modes(const Source& source, const std::string& body, int count) {
+  return aside([=] {
+    hold_library_threads();
+    const ElasticBody e = elastic_body(source->scene, elastic_of(source->scene, body));
+    return std::make_shared<BodyModes>(BodyModes{modes_of(source->scene, e, count), e.scene->name});
+  });
 }
 
 py::list small_modes(py::object self) {

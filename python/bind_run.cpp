@@ -19,7 +19,8 @@ struct InverseResult {
 
 /// Calls compute(prepared, listeners) without holding the interpreter. If a signal handler raises an exception, it gets what was computed.
 template <class Compute>
-auto watched(const SceneSource& source, Question question, Compute compute) {
+auto watched(const Source& source, Question question, Compute compute) {
+  const auto p = aside([=] { return prepared(*source, question); });
   Watch watch;
   auto out = [&] {
     const py::gil_scoped_release free;
@@ -27,26 +28,26 @@ auto watched(const SceneSource& source, Question question, Compute compute) {
     listeners.progress = [&](double t) { return watch(t); };
     if (question == Question::kinematics)
       listeners.frame = [](const State&, const Equations&) {};  // so that the motion is computed at the times of frames
-    return compute(prepared(source, question), listeners);
+    return compute(p, listeners);
   }();
   watch.raise(py::cast(out));
   return out;
 }
 
-Found run(const SceneSource& source) {
+Found run(const Source& source) {
   return watched(source, Question::run, [](const std::shared_ptr<const Prepared>& p, const Listeners& listeners) {
     return std::make_shared<RunResult>(RunResult{p, std::make_shared<Run>(simulate(p->scene, p->model, p->assembly, listeners))});
   });
 }
 
-Found driven(const SceneSource& source) {
+Found driven(const Source& source) {
   return watched(source, Question::kinematics, [](const std::shared_ptr<const Prepared>& p, const Listeners& listeners) {
     require_driven(p->scene, p->model, p->assembly);
     return std::make_shared<RunResult>(RunResult{p, std::make_shared<Run>(kinematics(p->scene, p->model, p->assembly, listeners)), true});
   });
 }
 
-std::shared_ptr<InverseResult> inverted(const SceneSource& source) {
+std::shared_ptr<InverseResult> inverted(const Source& source) {
   return watched(source, Question::run, [](const std::shared_ptr<const Prepared>& p, const Listeners& listeners) {
     return std::make_shared<InverseResult>(
         InverseResult{p, std::make_shared<Inverse>(inverse(p->scene, p->model, p->assembly, listeners))});

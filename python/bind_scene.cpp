@@ -46,17 +46,18 @@ SceneSource with_law(const SceneSource& of, const std::string& owner, py::object
   return out;
 }
 
-std::string check(const SceneSource& source) {
-  const py::gil_scoped_release free;
-  hold_library_threads();
-  Scene scene = source.scene;
-  require_run(scene);
-  scene = with_pieces(std::move(scene));
-  const std::optional<Scene> moved = for_kinematics_alone(scene);
-  if (moved) scene = *moved;
-  const Model model = moved ? build(scene) : build_with_preliminary_run(scene);
-  const Assembly assembly = assemble(scene, model);
-  return check_json(scene, model, assembly, moved ? CostEstimate{} : estimate_cost(scene, model, assembly));
+std::string check(const Source& source) {
+  return aside([source] {
+    hold_library_threads();
+    Scene scene = source->scene;
+    require_run(scene);
+    scene = with_pieces(std::move(scene));
+    const std::optional<Scene> moved = for_kinematics_alone(scene);
+    if (moved) scene = *moved;
+    const Model model = moved ? build(scene) : build_with_preliminary_run(scene);
+    const Assembly assembly = assemble(scene, model);
+    return check_json(scene, model, assembly, moved ? CostEstimate{} : estimate_cost(scene, model, assembly));
+  });
 }
 
 void trust(const std::vector<std::string>& folders, bool geo) {
@@ -84,7 +85,7 @@ std::shared_ptr<const Prepared> prepared(const SceneSource& source, Question que
 }
 
 void bind_scene(py::module_& m) {
-  py::class_<SceneSource>(m, "Scene")
+  py::class_<SceneSource, std::shared_ptr<SceneSource>>(m, "Scene")
       .def_static("of_file", [](const std::string& file, Overrides set) { return read_file(file, std::move(set)); })
       .def_static("of_text", [](std::string text, std::string name, const std::string& folder,
                                 Overrides set) { return read_text(std::move(text), std::move(name), folder, std::move(set)); })

@@ -58,9 +58,10 @@ class ByHand {
   std::shared_ptr<RunResult> found_;
 };
 
-std::unique_ptr<ByHand> begin(const SceneSource& source) {
+std::unique_ptr<ByHand> begin(const Source& source) {
+  auto p = aside([source] { return prepared(*source, Question::run); });
   const py::gil_scoped_release free;
-  return std::make_unique<ByHand>(prepared(source, Question::run));
+  return std::make_unique<ByHand>(std::move(p));
 }
 
 }  // namespace

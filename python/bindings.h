@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,7 @@ struct Prepared {
 enum class Question { run, kinematics, statics, small_motion };
 /// @throws SceneError, AssemblyError
 std::shared_ptr<const Prepared> prepared(const SceneSource&, Question);
+using Source = std::shared_ptr<const SceneSource>;
 
 /// Result of a run, of kinematics, or the motion of inverse dynamics. Arrays in Python refer to its memory.
 struct RunResult {
@@ -67,6 +69,16 @@ class Watch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::optional<py::error_already_set> raised_;
 };
+
+/// compute() on a thread of its own, while this one handles signals without holding the interpreter. What a handler raises is thrown at once;
+/// the computation then stops at its next stop_point, so it must own what it uses. The other exceptions are those of compute().
+void compute_aside(std::function<void()> compute);
+template <class Compute>
+auto aside(Compute compute) {
+  const auto out = std::make_shared<std::invoke_result_t<Compute>>();
+  compute_aside([compute = std::move(compute), out] { *out = compute(); });
+  return std::move(*out);
+}
 
 /// A read-only array over numbers of C++, which it does not own; keeps `owner` alive.
 template <class T>
@@ -93,6 +105,7 @@ py::tuple table(const Table&, py::handle owner);
 void put_functions(Scene&, const std::vector<FunctionLaw>&);
 
 void bind_errors(py::module_&);
+void bind_aside(py::module_&);
 void bind_scene(py::module_&);
 void bind_run(py::module_&);
 void bind_questions(py::module_&);

@@ -9,6 +9,7 @@
 #include "framework/bodies/modal_basis.h"
 #include "framework/build/build.h"
 #include "framework/common/processor_time.h"
+#include "framework/common/stop_point.h"
 #include "framework/component/reduction/inertia.h"
 #include "framework/component/reduction/modal_model.h"
 #include "framework/configuration/assemble.h"
@@ -101,8 +102,10 @@ void march(const Scene& twin, const Model& model, const Assembly& assembly, cons
   const double span = span_of(twin, imposed);
   Integrator integrator(model.system, scheme_of(model, span, imposed), assembly.start);
   if (integrator.failure().empty()) keep(model.system, attachments, integrator.state(), integrator.equations(), 0, run.bodies);
-  while (integrator.failure().empty() && run.steps < most && integrator.state().t < span && integrator.advance(span))
+  while (integrator.failure().empty() && run.steps < most && integrator.state().t < span && integrator.advance(span)) {
+    stop_point();
     keep(model.system, attachments, integrator.state(), integrator.equations(), ++run.steps, run.bodies);
+  }
   run.until = integrator.state().t;
   run.trouble = integrator.failure();
   for (LoadHistory& h : run.bodies) h.factor.conservativeResize(Eigen::NoChange, h.factor.rows() > 0 ? run.steps + 1 : 0);

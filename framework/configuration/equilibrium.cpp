@@ -8,6 +8,7 @@
 
 #include "framework/common/index.h"
 #include "framework/common/some_of.h"
+#include "framework/common/stop_point.h"
 #include "framework/common/text.h"
 #include "framework/configuration/own_rest.h"
 #include "framework/configuration/unsound_laws.h"
@@ -48,6 +49,7 @@ class Search {
     int idle = 0;
     trust_ = 0.3;
     for (int i = 0; i < most; ++i, ++iterations_) {
+      stop_point();
       const double residual = rest_.residual();
       if (residual <= balanced) return true;
       idle = residual < 0.5 * best ? 0 : idle + 1;
@@ -127,6 +129,7 @@ bool lead(const System& system, double to, State& state, double& reached) {
   Equations eq(system);
   double step = to / 64;
   for (reached = 0; std::abs(reached) < std::abs(to);) {
+    stop_point();
     const double next = std::abs(to - reached) <= std::abs(step) ? to : reached + step;
     hold_drivers(system, next, held);
     VectorXd y = state.y;

@@ -9,6 +9,7 @@
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/common/some_of.h"
+#include "framework/common/stop_point.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/model/signal_values.h"
@@ -220,6 +221,7 @@ JointRest newton_together(const System& system, Rest& rest, VectorXd& own, const
   now.look(state);
   double damping = 1e-6;
   for (; out.iterations < most && damping < most_damped && now.left.lpNorm<Eigen::Infinity>() > balanced; ++out.iterations) {
+    stop_point();
     State trial = state;
     const VectorXd own_before = own;
     TogetherAtRest then = now;

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import warnings
 
-plain = {"PYTHONMALLOC": "malloc", "GLIBC_TUNABLES": "glibc.malloc.tcache_count=0", "OPENBLAS_NUM_THREADS": "1"}
+plain = {"PYTHONMALLOC": "malloc", "GLIBC_TUNABLES": "glibc.malloc.tcache_count=0:glibc.malloc.arena_max=1", "OPENBLAS_NUM_THREADS": "1"}
 if any(os.environ.get(name) != value for name, value in plain.items()):  # blocks in pools and caches count as used
     sys.exit(subprocess.run([sys.executable, *sys.argv], env={**os.environ, **plain}).returncode)
 

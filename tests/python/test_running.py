@@ -4,6 +4,7 @@ import gc
 import json
 import os
 import signal
+import sys
 import tempfile
 import threading
 import time
@@ -89,6 +90,30 @@ class Signals(unittest.TestCase):
         self.interrupted(go, under_way=lambda stop: simulations and simulations[-1].t > 0)
         self.assertLess(simulations[-1].t, 1e5)
         self.assertGreater(len(simulations[-1].result()), 1)
+
+    def test_ctrl_c_ends_analyses_without_a_run_before_they_are_done(self):
+        plate = {"grid": {"corners": [[0, 0], [1, 0], [1, 1], [0, 1]], "cells": [150, 150]}, "thickness": "1 mm", "material": "steel"}
+        body = pintle.parse({
+            "materials": {"steel": {"young": "207 GPa", "poisson": 0.3, "density": 7850}},
+            "bodies": {"plate": {"plate": plate, "points": {"tip": [1, 1]}, "supports": {"left": "fixed"}}},
+            "static": {"loads": {"push": {"force": [0, "-1 N"], "at": "tip"}}},
+        })
+        for call in (body.modes, body.static, lambda: long_run.linearize(at=1e5)):
+            ends = []
+
+            def record(frame, event, of):  # an exception that comes after the call is no c_exception
+                if event == "c_exception" and of.__name__ in ("modes", "static_case", "linearize"):
+                    ends.append(of.__name__)
+
+            def go():
+                sys.setprofile(record)
+                call()
+
+            with self.subTest(call=call):
+                try:
+                    self.interrupted(go, under_way=lambda stop: ends)
+                finally:
+                    sys.setprofile(None)
 
     def test_a_sweep_stops_and_keeps_its_journal(self):
         study = {

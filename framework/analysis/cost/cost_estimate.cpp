@@ -13,6 +13,7 @@
 #include "framework/analysis/simulate/explain_failure.h"
 #include "framework/build/choose_method.h"
 #include "framework/common/processor_time.h"
+#include "framework/common/stop_point.h"
 #include "framework/common/text.h"
 #include "framework/common/work_done.h"
 #include "framework/integration/integrator.h"
@@ -55,6 +56,7 @@ Tried try_out(Integrator& run, double until, long most_steps, double most_second
   Trial& t = out.trial;
   const double begin = processor_time();
   while (run.failure().empty() && run.state().t < until && t.steps < most_steps && !t.by_clock) {
+    stop_point();
     if (!run.advance(until)) break;
     ++t.steps;
     out.ends.push_back(run.state().t);

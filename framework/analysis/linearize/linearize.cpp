@@ -12,6 +12,7 @@
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
 #include "framework/common/text.h"
+#include "framework/common/stop_point.h"
 #include "framework/common/work_done.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/configuration/assemble.h"
@@ -298,7 +299,10 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
 
 State state_at(const Model& model, const State& start, double t) {
   Integrator integrator(model.system, model.scheme, start);
-  while (integrator.failure().empty() && integrator.state().t < t && integrator.advance(t)) work_done = integrator.state().t / t;
+  while (integrator.failure().empty() && integrator.state().t < t && integrator.advance(t)) {
+    stop_point();
+    work_done = integrator.state().t / t;
+  }
   if (!integrator.failure().empty()) throw std::runtime_error("the run up to this state failed: " + integrator.failure());
   return integrator.state();
 }

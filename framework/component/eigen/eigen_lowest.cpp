@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "framework/common/stop_point.h"
 #include "framework/common/work_done.h"
 #include "framework/component/eigen/factor.h"
 #include "framework/component/eigen/pencil.h"
@@ -130,6 +131,7 @@ void iterate(Subspace& space, Search& s, EigenPairs& out) {
   double worst = 0;
   Index good = 0;
   while (out.iterations < s.options.max_iterations) {
+    stop_point();
     ++out.iterations;
     space.reserve(capacity_for(s, space.width()));
     if (!space.room()) space.restart(std::min(space.old(), s.wanted + (space.capacity() - s.wanted) / 4));

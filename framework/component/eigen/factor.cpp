@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/common/stop_point.h"
 #include "framework/common/suitesparse_memory.h"
 #include "framework/component/eigen/symbolic.h"
 
@@ -162,7 +163,9 @@ void Factor::analyse(const Sparse& A) {
 }
 
 bool Factor::compute(const Sparse& A) {
+  stop_point();
   analyse(A);
+  stop_point();
   Data& d = *data_;
   cholmod_sparse a = view(A);
   cholmod_factorize(&a, d.L, &d.common);
@@ -183,6 +186,7 @@ void Factor::solve_into(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
   Data& d = *data_;
   X.resize(B.rows(), B.cols());
   for (Eigen::Index c = 0; c < B.cols(); c += panel_columns) {
+    stop_point();
     const Eigen::Index columns = std::min(panel_columns, B.cols() - c);
     cholmod_dense b = view(const_cast<double*>(B.data() + c * B.rows()), B.rows(), columns);
     cholmod_dense x = view(X.data() + c * B.rows(), B.rows(), columns);

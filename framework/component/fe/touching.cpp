@@ -9,6 +9,7 @@
 #include <Eigen/SVD>
 
 #include "contact/complementarity.h"
+#include "framework/common/stop_point.h"
 #include "framework/component/eigen/factor.h"
 #include "framework/component/fe/assembly.h"
 
@@ -193,6 +194,7 @@ TouchingSolution TouchingBodies::solve(const std::vector<VectorXd>& loads) const
     for (Index i = 0; i < s.b.size(); ++i)
       if (s.lambda[i] > 0) next.push_back(i);
     for (; next != touch && out.iterations < 50; ++out.iterations) {
+      stop_point();
       touch = next;
       if (touch.size() < static_cast<std::size_t>(s.h.size())) carried_away();
       s.solve(touch, stiff);
