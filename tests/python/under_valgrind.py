@@ -16,7 +16,7 @@ with tempfile.TemporaryDirectory() as place:
     done = subprocess.run(
         ["valgrind", "--leak-check=full", "--show-leak-kinds=definite", "--num-callers=60", f"--log-file={log}",
          sys.executable, str(Path(__file__).with_name("repeat.py")), str(rounds)],
-        env={**os.environ, "PYTHONMALLOC": "malloc", "GLIBC_TUNABLES": "glibc.malloc.tcache_count=0", "OPENBLAS_NUM_THREADS": "1"})
+        env={**os.environ, "PYTHONMALLOC": "malloc", "GLIBC_TUNABLES": "glibc.malloc.tcache_count=0:glibc.malloc.arena_max=1", "OPENBLAS_NUM_THREADS": "1"})
     text = re.sub(r"(?m)^==\d+== ?", "", log.read_text())
 
 lost = [record for record in re.split(r"\n\s*\n", text) if "definitely lost in" in record]
