@@ -15,6 +15,7 @@
 #include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/output/results.h"
+#include "framework/output/run_files.h"
 
 namespace pintle::app {
 
@@ -22,21 +23,73 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// compute(listeners) with a progress display; frames, if the scene requests any, are passed to `writer`.
-template <class Compute>
-auto watched(const Scene& scene, const Model& model, std::optional<FrameWriter>& writer, const Options& options, Compute compute) {
-  now_doing("computing the motion");
-  const Drafting drafting(scene, model);
-  Listeners listeners;
-  if (writer) listeners.frame = [&](const State& state, const Equations& eq) { writer->add(draw(model, drafting, state, eq)); };
-  Progress progress(scene.run.until, options.quiet);
-  listeners.progress = [&](double t) { return progress(t); };
-  return compute(listeners);
-}
+/// Output of a driven motion during it: its tables, and frames if the scene requests any.
+class Recording {
+ public:
+  Recording(const fs::path& directory, const Scene& scene, const Model& model)
+      : directory_(directory),
+        scene_(scene),
+        model_(model),
+        kept_for_report_(directory / "run.json", least_room + 4 * scene.filled_in.size()) {
+    write_text(directory_ / "run.json", begun_json(scene));  // remains if the program is killed
+    if (scene.output.frames > 1) writer_.emplace(directory), drafting_.emplace(scene, model);
+  }
 
-std::optional<FrameWriter> frame_writer(const Scene& scene, const ResultsDirectory& results) {
-  return scene.output.frames > 1 ? std::make_optional<FrameWriter>(results.path()) : std::nullopt;
-}
+  /// compute(listeners) with a progress display.
+  template <class Compute>
+  auto watch(const Options& options, Compute compute) {
+    now_doing("computing the motion");
+    Listeners listeners;
+    listeners.rows = [this](const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts,
+                            const std::vector<Happening>& happenings) { add(trajectory, ledger, impacts, happenings); };
+    if (writer_) listeners.frame = [this](const State& state, const Equations& eq) { writer_->add(draw(model_, *drafting_, state, eq)); };
+    Progress progress(scene_.run.until, options.quiet);
+    listeners.progress = [&](double t) { return progress(t); };
+    return compute(listeners);
+  }
+  void finish(const Run& run) {
+    if (writer_) writer_->finish(drawn_impacts(run.impacts));
+    begin(run.trajectory, run.ledger);
+    if (files_) files_->finish(run.impacts, run.happenings);
+    if (trajectory_) trajectory_->close();
+  }
+  /// Makes room for reports, and removes the one of a motion that has not ended.
+  void release() {
+    kept_for_report_.release();
+    std::error_code error;
+    fs::remove(directory_ / "run.json", error);
+  }
+
+ private:
+  static constexpr std::size_t least_room = std::size_t{1} << 16;
+
+  /// Algebra has no ledger and no impacts.
+  void begin(const Table& trajectory, const Table& ledger) {
+    if (files_ || trajectory_) return;
+    if (ledger.columns() > 0) return files_.emplace(directory_, scene_, model_).flush();
+    trajectory_.emplace(directory_ / "trajectory.csv").append(csv_heading(trajectory));
+    trajectory_->flush();
+  }
+  void add(const Table& trajectory, const Table& ledger, const std::vector<Impact>& impacts, const std::vector<Happening>& happenings) {
+    begin(trajectory, ledger);
+    if (files_) return files_->add(trajectory, ledger, impacts, happenings);
+    for (std::size_t r = 0; r < trajectory.rows(); ++r) {
+      row_.clear();
+      append_csv_row(row_, trajectory, r);
+      trajectory_->append(row_);
+    }
+  }
+
+  const fs::path directory_;
+  const Scene& scene_;
+  const Model& model_;
+  ReservedRoom kept_for_report_;
+  std::optional<FileWriter> trajectory_;
+  std::optional<RunFiles> files_;
+  std::optional<FrameWriter> writer_;
+  std::optional<Drafting> drafting_;
+  std::string row_;
+};
 
 Rows run_rows(const Run& run) {
   return {{"time reached", number(run.t_end) + " s"},
@@ -79,15 +132,18 @@ int kinematics(const Options& options) {
   tell_leftovers(options, out);
   ResultsDirectory results(out);
   results_are_in(results.path().string());
-  std::optional<FrameWriter> writer = frame_writer(scene, results);
-  Run run =
-      watched(scene, model, writer, options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
+  Recording recording(results.path(), scene, model);
+  Run run = recording.watch(options, [&](const Listeners& listeners) { return kinematics(scene, model, assembly, listeners); });
   if (run.status == Status::interrupted) run.reason = stopped_by();
-  const auto write = [&] {
-    if (writer) writer->finish();
-    write_kinematics(results.path(), scene, model, run);
+  const auto report = [&] {
+    recording.release();
+    write_text(results.path() / "kinematics.json", kinematics_json(scene, model, run));
   };
-  finish_run(results, run, write, [&] { write_text(results.path() / "kinematics.json", kinematics_json(scene, model, run)); });
+  const auto write = [&] {
+    recording.finish(run);
+    report();
+  };
+  finish_run(results, run, write, report);
 
   if (options.json)
     std::cout << kinematics_json(scene, model, run);
@@ -108,15 +164,20 @@ int inverse(const Options& options) {
   tell_leftovers(options, out);
   ResultsDirectory results(out);
   results_are_in(results.path().string());
-  std::optional<FrameWriter> writer = frame_writer(scene, results);
-  Inverse found =
-      watched(scene, model, writer, options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
+  Recording recording(results.path(), scene, model);
+  Inverse found = recording.watch(options, [&](const Listeners& listeners) { return inverse(scene, model, assembly, listeners); });
   if (found.run.status == Status::interrupted) found.run.reason = stopped_by();
   const auto write = [&] {
-    if (writer) writer->finish(drawn_impacts(found.run.impacts));
-    write_inverse(results.path(), scene, model, assembly, found);
+    recording.finish(found.run);
+    recording.release();
+    if (!found.by_algebra) write_text(results.path() / "run.json", run_json(scene, model, assembly, found.run));
+    write_efforts(results.path(), scene, model, found);
   };
-  finish_run(results, found.run, write, [&] { write_text(results.path() / "inverse.json", inverse_json(scene, model, found)); });
+  const auto report = [&] {
+    recording.release();
+    write_text(results.path() / "inverse.json", inverse_json(scene, model, found));
+  };
+  finish_run(results, found.run, write, report);
 
   if (options.json) {
     std::cout << inverse_json(scene, model, found);

@@ -87,6 +87,10 @@ void write_inverse(const fs::path& directory, const Scene& scene, const Model& m
     write_csv(directory / "trajectory.csv", inverse.run.trajectory);
   else
     write_results(directory, scene, model, assembly, inverse.run);
+  write_efforts(directory, scene, model, inverse);
+}
+
+void write_efforts(const fs::path& directory, const Scene& scene, const Model& model, const Inverse& inverse) {
   for (std::size_t d = 0; d < inverse.drivers.size(); ++d) write_text(directory / effort_file(inverse, d), effort_csv(inverse.drivers[d]));
   write_text(directory / "inverse.json", inverse_json(scene, model, inverse));
 }

@@ -3,6 +3,7 @@ how far it came. Places are rows, not times: nothing here depends on how fast th
 
 usage: test_killed_run.py PINTLE"""
 
+import json
 import os
 import signal
 import subprocess
@@ -39,6 +40,17 @@ events: {first down: {when: rod.angle < -1 deg, do: {row: true}}, far: {when: ro
 run: {until: 1e7 s, method: dopri5, tolerance: 1e-9, max steps: 2000000000}
 output: {every: 1 s}
 """
+# A driven crank; with a free rod at its end, inverse integrates.
+driven = """
+gravity: [0, -9.81]
+bodies: {crank: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [-1, 0], E: [1, 0]}}BODIES}
+joints: {hinge: {revolute: [ground, crank.O]}JOINTS}
+drivers: {motor: {angle: [ground, crank], law: "1 rad/s*t"}}
+run: {until: 20000 s, tolerance: 1e-6, max steps: 2000000000}
+output: {every: 5 ms}
+"""
+crank = driven.replace("BODIES", "").replace("JOINTS", "")
+swung = driven.replace("BODIES", ", rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [-1, 0]}}").replace("JOINTS", ", pin: {revolute: [crank.E, rod.O]}")
 
 
 def pieces(folder):
@@ -52,10 +64,10 @@ class KilledRun(unittest.TestCase):
         self.place = Path(place.name)
         (self.place / "scene.yaml").write_text(scene)
 
-    def killed(self, rows):
+    def killed(self, rows, command="run"):
         """The folder that a run leaves which is killed once so many rows are on the disk."""
         out = self.place / f"killed-{rows}"
-        process = subprocess.Popen([pintle, "run", "scene.yaml", "--out", out.name, "--quiet"], cwd=self.place)
+        process = subprocess.Popen([pintle, command, "scene.yaml", "--out", out.name, "--quiet"], cwd=self.place)
         try:
             while process.poll() is None:
                 found = list(self.place.glob(out.name + ".part-*/trajectory.csv"))
@@ -69,9 +81,9 @@ class KilledRun(unittest.TestCase):
         (left,) = self.place.glob(out.name + ".part-*")
         return left
 
-    def run_to(self, until):
+    def run_to(self, until, command="run"):
         out = self.place / "whole"
-        subprocess.run([pintle, "run", "scene.yaml", "--set", f"run.until={until!r}", "--out", out.name, "--quiet"], cwd=self.place, check=True)
+        subprocess.run([pintle, command, "scene.yaml", "--set", f"run.until={until!r}", "--out", out.name, "--quiet"], cwd=self.place, check=True)
         return pieces(out)
 
     def left_with(self, table, text):
@@ -107,6 +119,28 @@ class KilledRun(unittest.TestCase):
     def test_it_leaves_what_a_run_writes_and_no_more(self):
         names = {n for n in pieces(self.killed(1)) if "/" not in n}
         self.assertEqual(names, {"trajectory.csv", "ledger.csv", "events.csv", "run.json"})
+
+    def test_driven_motions_leave_what_they_wrote_too(self):
+        for name, command, text, tables in (
+            ("kinematics", "kinematics", crank, {"trajectory.csv"}),
+            ("by algebra", "inverse", crank, {"trajectory.csv"}),
+            ("integrated", "inverse", swung, {"trajectory.csv", "ledger.csv", "events.csv"}),
+        ):
+            with self.subTest(name):
+                self.setUp()
+                (self.place / "scene.yaml").write_text(text)
+                files = pieces(self.killed(500, command))
+                self.assertEqual(set(files), tables | {"run.json"})
+                self.assertEqual(json.loads(files["run.json"])["status"], "unfinished")
+                reached = float(files["trajectory.csv"].split(b"\n")[-2].split(b",")[0])
+                whole = self.run_to(reached + 3, command)
+                for table in tables:
+                    rows = files[table][: files[table].rfind(b"\n") + 1]
+                    if name == "integrated":  # whose times of efforts, and so its steps, are parts of the whole time
+                        rows = rows[: rows.find(b"\n") + 1]
+                    self.assertTrue(whole[table].startswith(rows), table)
+                self.assertEqual("run.json" in whole, name == "integrated")
+                self.assertEqual(json.loads(whole[f"{command}.json"])["status"], "finished")
 
     def test_ten_times(self):
         left, furthest = [], 0

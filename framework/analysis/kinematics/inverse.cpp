@@ -118,13 +118,20 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   run.warnings = model.warnings;
   for (const std::string& warning : warnings_of(model, assembly)) run.warnings.push_back(warning);
   Forces forces(model.system, assembly.start);
+  std::size_t rows = 0;  // that the listener has taken
+  Listeners told = listeners;
+  if (listeners.rows)
+    told.rows = [&](const Table& trajectory, const auto&... others) {
+      rows += trajectory.rows();
+      listeners.rows(trajectory, others...);
+    };
   follow(
-      scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, listeners, run);
+      scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, told, run);
   if (run.status == Status::failed && run.reason.empty())
     run.reason = "t = " + number_text(forces.motion().state().t, 9) + " s: the forces there are not finite; " +
                  explain_signals(scene, model, assembly.start, forces.motion().state());
   const double begin = processor_time();
-  if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, run.trajectory.rows() - 1, run.t_end);
+  if (run.t_end > 0 && !ended_short(run)) out.drivers = find_efforts(model, assembly, rows + run.trajectory.rows() - 1, run.t_end);
   run.seconds += processor_time() - begin;
 }
 

@@ -38,6 +38,8 @@ Assembly steady_start(const Model&, const Assembly&);
 /// trajectory.csv, NAME.csv of each driver and inverse.json in `directory`; for an integrated motion also the files of a run. @throws
 /// std::runtime_error  naming the path that cannot be written
 void write_inverse(const std::filesystem::path& directory, const Scene&, const Model&, const Assembly&, const Inverse&);
+/// NAME.csv of each driver and inverse.json in `directory`. @throws FileError
+void write_efforts(const std::filesystem::path& directory, const Scene&, const Model&, const Inverse&);
 std::string inverse_json(const Scene&, const Model&, const Inverse&);
 /// File name of a driver's effort: "motor.csv".
 std::string effort_file(const Inverse&, std::size_t driver);

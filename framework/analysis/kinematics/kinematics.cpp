@@ -215,6 +215,10 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
       if (o < outputs.size() && outputs[o] == t) {
         record(told, motion.state(), motion.equations(), run.trajectory), ++o;
         warn_of_signals(scene, told, motion.state(), run.trajectory, run.warnings);
+        if (listeners.rows) {
+          listeners.rows(run.trajectory, run.ledger, run.impacts, run.happenings);
+          run.trajectory.data.clear();
+        }
       }
       if (f < frames.size() && frames[f] == t) {
         const double before = processor_time();
