@@ -13,13 +13,14 @@ namespace {
 template <class Error>
 void raise_placed(const char* name, const Error& e) {
   const py::object type = py::module_::import("pintle.errors").attr(name);
-  const py::object error = type(e.what());
+  const bool of_dict = e.file == "<dict>";  // whose text and lines nobody has seen
+  const py::object error = type(of_dict ? e.file + ": " + (e.place.key.empty() ? "" : e.place.key + ": ") + e.message : e.what());
   const auto set = [&](const char* attribute, const std::string& text) {
     error.attr(attribute) = text.empty() ? py::object(py::none()) : py::object(py::str(text));
   };
-  set("file", e.file), set("key", e.place.key);
+  set("file", of_dict ? "" : e.file), set("key", e.place.key);
   error.attr("message") = e.message.empty() ? e.what() : e.message;
-  error.attr("line") = e.place.line > 0 ? py::object(py::int_(e.place.line)) : py::object(py::none());
+  error.attr("line") = e.place.line > 0 && !of_dict ? py::object(py::int_(e.place.line)) : py::object(py::none());
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 

@@ -135,7 +135,7 @@ def parse(scene, set=None, folder="."):
     if isinstance(scene, str):
         return Scene(_core.Scene.of_text(scene, "scene", os.fspath(folder), overrides(set)))
     text = json.dumps(scene, default=plain, ensure_ascii=False, indent=1)
-    return Scene(_core.Scene.of_text(text, "scene", os.fspath(folder), overrides(set)))
+    return Scene(_core.Scene.of_text(text, "<dict>", os.fspath(folder), overrides(set)))
 
 
 def trust(folders=(), geo=False):

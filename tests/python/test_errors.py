@@ -39,7 +39,25 @@ class Scenes(unittest.TestCase):
     def test_a_dict_names_the_key(self):
         with self.assertRaises(pintle.SceneError) as caught:
             pintle.parse({"bodies": {"rod": {"rigid": {"mass": "1 kg", "inertia": "0.1 m"}}}, "run": {"until": 1}})
-        self.assertEqual(caught.exception.key, "bodies.rod.rigid.inertia")
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.key), (None, None, "bodies.rod.rigid.inertia"))
+        self.assertEqual(str(error), f"<dict>: {error.key}: {error.message}")
+
+    def test_a_study_of_a_dict_names_the_key_and_no_file(self):
+        study = {"scene": examples / "pendulum.yaml", "set": {"run.until": "10 ms"}, "measure": {"lost": "energy lost"},
+                 "sweep": {"grid": {"run.tolerance": [1e-6]}}}
+        for call, wrong, key in ((pintle.sweep, {"sweep": {"gird": {}}}, "sweep.gird"), (pintle.sweep, {"scene": "nowhere.yaml"}, "scene"),
+                                 (pintle.fit, {"measure": {"lost": "energy lots"}}, "measure.lost")):
+            with self.subTest(wrong=wrong), self.assertRaises(pintle.SceneError) as caught:
+                call({**study, **wrong})
+            error = caught.exception
+            self.assertEqual((error.file, error.line, error.key), (None, None, key))
+            self.assertEqual(str(error), f"<dict>: {error.key}: {error.message}")
+            self.assertNotIn(tempfile.gettempdir(), error.message)
+        self.assertEqual(pintle.sweep(study).info["file"], "<dict>")
+        with self.assertRaises(pintle.SceneError) as caught:  # not of the study
+            pintle.sweep({**study, "set": {"run.untl": 1}})
+        self.assertEqual(caught.exception.file, str(examples / "pendulum.yaml"))
 
     def test_a_file_that_is_not_there(self):
         with self.assertRaisesRegex(pintle.SceneError, "nowhere.yaml"):
