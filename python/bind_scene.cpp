@@ -60,6 +60,14 @@ std::string check(const Source& source) {
   });
 }
 
+/// As check, without a run and its cost.
+std::string assembled(const Source& source) {
+  return aside([source] {
+    const auto p = prepared(*source, Question::statics);
+    return check_json(p->scene, p->model, p->assembly, {});
+  });
+}
+
 void trust(const std::vector<std::string>& folders, bool geo) {
   Trust out;
   out.geo = geo;
@@ -92,6 +100,7 @@ void bind_scene(py::module_& m) {
       .def("set", &with_set)
       .def("with_law", &with_law)
       .def("check", &check)
+      .def("assembled", &assembled)
       .def_property_readonly("title", [](const SceneSource& s) { return s.scene.title; })
       .def_property_readonly("name", [](const SceneSource& s) { return s.name; })
       .def_property_readonly("parameters", [](const SceneSource& s) { return s.scene.parameters; })

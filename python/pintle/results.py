@@ -45,6 +45,12 @@ class Page:
         return f'<iframe srcdoc="{html.escape(self.text)}" style="width: 100%; height: {self.height}px; border: 0"></iframe>'
 
 
+def facts(title, rows):
+    """A table of names and texts for a notebook."""
+    lines = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(text)}</td></tr>" for name, text in rows)
+    return f"<table><caption>{html.escape(title)}</caption>{lines}</table>"
+
+
 class Result(Table):
     """Result of a run: `result["crank.angle"]` is a column of its trajectory."""
 
@@ -134,8 +140,7 @@ class Result(Table):
         return "\n".join([self._core.title or "run"] + [f"  {name:<20}{text}" for name, text in self._rows()])
 
     def _repr_html_(self):
-        rows = "".join(f"<tr><td>{name}</td><td>{html.escape(text)}</td></tr>" for name, text in self._rows())
-        return f"<table><caption>{html.escape(self._core.title or 'run')}</caption>{rows}</table>"
+        return facts(self._core.title or "run", self._rows())
 
 
 def warn(texts, level=3):
@@ -278,6 +283,14 @@ class Modes:
 
     def __repr__(self):
         return f"{self.body}: " + ", ".join(f"{f:.6g}" for f in self.frequencies) + " Hz"
+
+    def _repr_html_(self):
+        n = self.natural
+        columns = {"mode": range(1, len(n.frequencies) + 1), "frequency<br>[Hz]": n.frequencies, "damping ratio": n.damping,
+                   "effective mass x<br>[kg]": n.mass[0], "effective mass y<br>[kg]": n.mass[1], "effective inertia<br>[kg m²]": n.mass[2]}
+        rows = "".join("<tr>" + "".join(f"<td>{x:.6g}</td>" for x in row) + "</tr>" for row in zip(*columns.values()))
+        head = "".join(f"<th>{name}</th>" for name in columns)
+        return f"<table><caption>{html.escape(f'{self.body}, {n.title}')}</caption><tr>{head}</tr>{rows}</table>"
 
 
 class BodyCase(Table):

@@ -4,8 +4,8 @@ import json
 import os
 
 from . import _core
-from .errors import RunError
-from .results import InverseResult, Mesh, Modes, Rest, Result, Simulation, SmallMotion, StaticCase, checked, warn
+from .errors import Error, RunError
+from .results import InverseResult, Mesh, Modes, Rest, Result, Simulation, SmallMotion, StaticCase, checked, facts, warn
 
 
 def plain(value):
@@ -113,6 +113,15 @@ class Scene:
 
     def __repr__(self):
         return f"<scene {self.title or self._core.name}>"
+
+    def _repr_html_(self):
+        said = self.as_dict()
+        rows = [(section, ", ".join(said[section])) for section in ("bodies", "joints", "drivers", "forces", "contacts", "events") if said.get(section)]
+        try:
+            rows.append(("degrees of freedom", str(json.loads(self._core.assembled())["model"]["mobility"])))
+        except Error as error:
+            rows.append(("degrees of freedom", f"unknown: {error}"))
+        return facts(self.title or self._core.name, rows)
 
 
 def _found(kind, analyse, core):

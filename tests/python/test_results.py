@@ -249,6 +249,20 @@ class Questions(unittest.TestCase):
 
 
 class Views(unittest.TestCase):
+    def test_a_notebook_shows_what_a_scene_holds(self):
+        shown = pintle.parse(pendulum.replace("rod", "rod <1>"))._repr_html_()
+        for row in ("<td>bodies</td><td>rod &lt;1&gt;</td>", "<td>joints</td><td>hinge</td>", "<td>degrees of freedom</td><td>1</td>"):
+            self.assertIn(row, shown)
+        apart = pintle.parse(pendulum.replace("joints: {", "joints: {far: {distance: [ground, rod], length: 9 m}, "))
+        self.assertIn("unknown: ", apart._repr_html_())
+
+    def test_a_notebook_shows_modes_as_a_table(self):
+        modes = pintle.load(examples / "modes_beam.yaml").modes(count=2)
+        shown = modes._repr_html_()
+        self.assertEqual(shown.count("<tr>"), 3)
+        for f in modes.frequencies:
+            self.assertIn(f"<td>{f:.6g}</td>", shown)
+
     def test_a_notebook_shows_the_page_of_the_report(self):
         page = worn.run().view(height=500)
         self.assertIn("<html", page.text)
