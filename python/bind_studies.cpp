@@ -16,13 +16,16 @@ namespace pintle::python {
 
 namespace {
 
+// `called`: what results call the study; empty: its file
+
 /// (sweep.csv, sweep.json, warnings.csv or "", the same in a sentence)
-py::tuple sweep(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
+py::tuple sweep(const std::string& study, const std::string& called, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string csv, json, warnings, sentence;
   {
     const py::gil_scoped_release free;
-    const Sweep what = read_sweep(study, set);
+    Sweep what = read_sweep(study, set);
+    if (!called.empty()) what.study.file = called;
     SweepSettings settings;
     settings.threads = threads;
     settings.progress = [&](const SweepCount&) { return watch(); };
@@ -36,7 +39,7 @@ py::tuple sweep(const std::string& study, const std::string& folder, const Overr
 
 /// (fit.csv, fit.json, whether the goal is met, the scene's file, its overrides for the best point, this point by name, its measures by name,
 /// warnings of the best case); the file is empty if no point was found
-py::tuple fit(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
+py::tuple fit(const std::string& study, const std::string& called, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string csv, json;
   std::optional<std::string> file;
@@ -46,7 +49,8 @@ py::tuple fit(const std::string& study, const std::string& folder, const Overrid
   Overrides best;
   {
     const py::gil_scoped_release free;
-    const FitPlan plan = read_fit(study, set);
+    FitPlan plan = read_fit(study, set);
+    if (!called.empty()) plan.base.study.file = called;
     FitSettings settings;
     settings.threads = threads;
     settings.progress = [&](std::size_t, std::size_t) { return watch(); };
@@ -77,12 +81,13 @@ std::string doubts(const std::vector<Row>& rows) {
 }
 
 /// (sensitivity.csv, sensitivity.json, sweep.csv, a warning or "")
-py::tuple sensitivity(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
+py::tuple sensitivity(const std::string& study, const std::string& called, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string csv, json, cases, warning;
   {
     const py::gil_scoped_release free;
-    const SensitivityPlan plan = read_sensitivity(study, set);
+    SensitivityPlan plan = read_sensitivity(study, set);
+    if (!called.empty()) plan.sweep.study.file = called;
     SweepSettings settings;
     settings.threads = threads;
     settings.progress = [&](const SweepCount&) { return watch(); };
@@ -100,13 +105,14 @@ py::tuple sensitivity(const std::string& study, const std::string& folder, const
 }
 
 /// (values.csv, the output of `pintle nonlinear --json`, section.csv, orbits.csv, lyapunov.csv), None for tables not requested
-py::tuple nonlinear(const std::string& study, const std::string& folder, const Overrides& set, int threads) {
+py::tuple nonlinear(const std::string& study, const std::string& called, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string values, json;
   std::optional<std::string> section, orbits, exponents;
   {
     const py::gil_scoped_release free;
-    const Nonlinear what = read_nonlinear(study, set);
+    Nonlinear what = read_nonlinear(study, set);
+    if (!called.empty()) what.sweep.study.file = called;
     SweepSettings settings;
     settings.threads = threads;
     settings.progress = [&](const SweepCount&) { return watch(); };

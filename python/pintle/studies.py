@@ -19,18 +19,18 @@ def _threads(threads):
 
 @contextmanager
 def _files(study, out):
-    """The study's file, the folder of its results, and what to make of results. A dict is written to a file, whose name is told to nobody;
-    its scene is relative to the current folder."""
+    """The study's file, what to call it, and the folder of its results. A dict is written to a file, whose name is told to nobody; its scene
+    is relative to the current folder."""
     with tempfile.TemporaryDirectory() as place:
         folder = str(Path(place) / "out" if out is None else out)
         if not isinstance(study, dict):
-            yield os.fspath(study), folder, lambda results: results
+            yield os.fspath(study), "", folder
             return
         file = Path(place) / "study.yaml"
         scene = {"scene": str(Path(study["scene"]).resolve())} if "scene" in study else {}
         file.write_text(json.dumps({**study, **scene}, default=plain, ensure_ascii=False), encoding="utf-8")
         try:
-            yield str(file), folder, lambda results: [r.replace(str(file), "<dict>") if isinstance(r, str) else r for r in results]
+            yield str(file), "<dict>", folder
         except SceneError as error:
             if error.file != str(file):
                 raise
@@ -105,32 +105,32 @@ class TradeoffResult(TextTable):
 
 def sweep(study, out=None, set=None, threads=None):
     """Runs the cases of a study, given as a file or a dict of its content. `out`: the folder of its files, from which it continues; without it nothing is kept."""
-    with _files(study, out) as (file, folder, told):
-        *tables, doubts = told(_core.sweep(file, folder, overrides(set), _threads(threads)))
+    with _files(study, out) as (file, name, folder):
+        *tables, doubts = _core.sweep(file, name, folder, overrides(set), _threads(threads))
     warn([doubts] if doubts else [])
     return SweepResult(*tables)
 
 
 def fit(study, out=None, set=None, threads=None):
     """Finds parameters that reach the goal of a study, given as a file or a dict; `scene` of the result is the scene with them, or None if none were found."""
-    with _files(study, out) as (file, folder, told):
-        result = FitResult(*told(_core.fit(file, folder, overrides(set), _threads(threads))))
+    with _files(study, out) as (file, name, folder):
+        result = FitResult(*_core.fit(file, name, folder, overrides(set), _threads(threads)))
     warn([f"the best case: {doubt}" for doubt in result.warnings])
     return result
 
 
 def sensitivity(study, out=None, set=None, threads=None):
     """Finds how measures depend on parameters and their tolerances, as a study, a file or a dict, asks for it. `out` as of `sweep`."""
-    with _files(study, out) as (file, folder, told):
-        result = SensitivityResult(*told(_core.sensitivity(file, folder, overrides(set), _threads(threads))))
+    with _files(study, out) as (file, name, folder):
+        result = SensitivityResult(*_core.sensitivity(file, name, folder, overrides(set), _threads(threads)))
     warn([result.warning] if result.warning else [])
     return result
 
 
 def nonlinear(study, out=None, set=None, threads=None):
     """Finds Poincaré sections, periodic orbits and Lyapunov exponents, as a study, a file or a dict, asks for them. `out` as of `sweep`."""
-    with _files(study, out) as (file, folder, told):
-        return NonlinearResult(*told(_core.nonlinear(file, folder, overrides(set), _threads(threads))))
+    with _files(study, out) as (file, name, folder):
+        return NonlinearResult(*_core.nonlinear(file, name, folder, overrides(set), _threads(threads)))
 
 
 def _asked(value, unit=""):
@@ -144,7 +144,7 @@ def tradeoff(study, quantities=(), error=None, time=None, budget=None, repeats=N
     `time`, of a run, and `budget`, of all of them: [s] or "10 min"; `repeats`: timed runs of each setting. `out`: a new folder for the files of `pintle tradeoff`."""
     if out is not None and Path(out).exists():
         raise FileExistsError(f"{out} already exists; name another folder, or remove it")
-    with _files(study, out) as (file, folder, told):
+    with _files(study, out) as (file, _, folder):
         names = [quantities] if isinstance(quantities, str) else list(quantities)
         wishes = names, _asked(error), _asked(time, " s"), _asked(budget, " s"), repeats or 0
-        return TradeoffResult(*told(_core.tradeoff(file, None if out is None else folder, overrides(set), *wishes)))
+        return TradeoffResult(*_core.tradeoff(file, None if out is None else folder, overrides(set), *wishes))

@@ -54,7 +54,9 @@ class Scenes(unittest.TestCase):
             self.assertEqual((error.file, error.line, error.key), (None, None, key))
             self.assertEqual(str(error), f"<dict>: {error.key}: {error.message}")
             self.assertNotIn(tempfile.gettempdir(), error.message)
-        self.assertEqual(pintle.sweep(study).info["file"], "<dict>")
+        with tempfile.TemporaryDirectory() as place:
+            self.assertEqual(pintle.sweep(study, out=f"{place}/out").info["file"], "<dict>")
+            self.assertIn('"file": "<dict>"', Path(f"{place}/out/sweep.json").read_text())
         with self.assertRaises(pintle.SceneError) as caught:  # not of the study
             pintle.sweep({**study, "set": {"run.untl": 1}})
         self.assertEqual(caught.exception.file, str(examples / "pendulum.yaml"))
