@@ -54,6 +54,7 @@ constexpr const char* what_modes_writes =
     "  modes.csv, modes.json   frequency, effective mass, damping ratio, residual of each mode\n"
     "  modes.vtu               every mode shape as a vector field, with its modal von Mises stress\n"
     "  mode_01.pvd, …          an animation of each mode for ParaView\n"
+    "  drawing.json            the drawing of the first 12 for pintle report\n"
     "  reduced.*, reduced_01…  the same for the reduced body, if the scene gives it `modes`\n"
     "Exit codes: see pintle --help\n";
 
@@ -348,8 +349,9 @@ void add_options(CLI::App& command, Options& options) {
   command.add_option("-b,--body", options.body, "which body; may be left out if only one body is made of elements")->type_name("NAME");
   if (name == "static")
     command.footer(
-        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams) and static.json; for bodies in contact a\n"
-        "folder each, and contacts.csv (pressure and gap).\nExit codes: see pintle "
+        "It writes static.vtu (displacement, stress), points.csv, section_forces.csv (beams), static.json and drawing.json (for pintle "
+        "report);\n"
+        "for bodies in contact a folder each, and contacts.csv (pressure and gap).\nExit codes: see pintle "
         "--help\n");
   if (name == "mesh") command.footer("It writes mesh.vtu (quality of each cell, groups) and mesh.json.\nExit codes: see pintle --help\n");
   if (name != "modes") return;

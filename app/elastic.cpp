@@ -1,4 +1,5 @@
 // Commands on one body of elements: modes, mesh and static.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -16,6 +17,7 @@
 #include "framework/common/text.h"
 #include "framework/drawing/body_drawing.h"
 #include "framework/output/results.h"
+#include "framework/report/body_report.h"
 
 namespace pintle::app {
 
@@ -102,6 +104,7 @@ void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTab
 }  // namespace
 
 int modes(const Options& options) {
+  constexpr Eigen::Index most_drawn = 12;  // on the page of a report
   Waiting waiting(options.quiet || options.json);
   const Scene scene = read_scene(options.scene, overrides(options));
   const fs::path out = results_directory(options, "-modes");
@@ -116,6 +119,8 @@ int modes(const Options& options) {
     write_text(folder / "modes.csv", modes_csv(report.natural, report));
     write_text(folder / "modes.json", modes_json(scene, e, report));
     write_shapes(folder, e, report.natural, "mode", frames);
+    const Eigen::MatrixXd& shapes = report.natural.modes.shapes;
+    write_text(folder / "drawing.json", body_drawing(e, shapes.leftCols(std::min<Eigen::Index>(most_drawn, shapes.cols()))));
     if (!report.reduced) return;
     write_text(folder / "reduced.csv", modes_csv(*report.reduced, report));
     write_shapes(folder, e, *report.reduced, "reduced", frames);
@@ -246,7 +251,10 @@ int statics(const Options& options) {
   now_doing("solving the static case");
   const StaticReport r = solve_case(scene, e);
   now_doing("writing the results");
-  write_whole(options, out, [&](const fs::path& folder) { write_case(folder, scene, e, r); });
+  write_whole(options, out, [&](const fs::path& folder) {
+    write_case(folder, scene, e, r);
+    write_text(folder / "drawing.json", body_drawing(e, r.solution.u));
+  });
   waiting.end();
   if (options.json) {
     std::cout << static_json(scene, e, r);

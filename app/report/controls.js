@@ -140,7 +140,7 @@ function listenToOptions(page) {
     box.checked = stage.show[what];
     box.onchange = () => ((stage.show[what] = box.checked), showColourBar(stage), page.redraw());
   }
-  byId("stress-option").hidden = !stage.meshes.some((mesh) => mesh);
+  byId("stress-option").hidden = byId("show-stress").disabled = Boolean(page.data.modes) || !stage.meshes.some((mesh) => mesh);  // enlarged modes have none
   byId("force-option").hidden = stage.usualForce === 0 && stage.usualCouple === 0;
   byId("arrows").oninput = ({target}) => ((stage.arrows = 2 ** target.value), page.redraw());
   slider(

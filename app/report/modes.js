@@ -26,8 +26,11 @@ class ModeClock extends Clock {
   }
 }
 
-const modeText = (mode, k) => `${k + 1}: ${mode.kind}` +
-    (mode["frequency [Hz]"] > 0 ? `, ${engineering(mode["frequency [Hz]"], "Hz", 4)}, damping ${plain(mode["damping ratio"], 3)}` : "");
+function modeText(mode, k) {
+  const words = [mode.kind];
+  if (mode["frequency [Hz]"] > 0) words.push(engineering(mode["frequency [Hz]"], "Hz", 4), `damping ${plain(mode["damping ratio"], 3)}`);
+  return `${k + 1}: ${words.filter((word) => word).join(", ")}`;
+}
 
 /// A list of modes, of which the chosen one moves.
 function listModes(clock, modes) {

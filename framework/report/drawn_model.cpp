@@ -57,19 +57,6 @@ std::string numbers(const std::vector<std::array<int, n>>& all) {
   return base64(std::span<const int>(out));
 }
 
-Json mesh_json(const FlexibleDrawing& body, std::size_t bytes) {
-  const std::size_t shapes = at(body.displacements().cols()), a_point = sizeof(float) * (2 + 6 * shapes) + 6 * 4;
-  const DrawnMesh mesh = drawn_mesh(body, std::max<std::size_t>(bytes / a_point, 50));
-  Line points;
-  for (const int p : mesh.points) points.push_back(body.points().col(p));
-  return {{"points", flat(points)},
-          {"of", body.points().cols()},
-          {"triangles", numbers(mesh.triangles)},
-          {"rim", numbers(mesh.rim)},
-          {"shapes", of_points(body.displacements(), 2, mesh.points)},
-          {"stresses", of_points(body.stresses(), 4, mesh.points)}};
-}
-
 Json profiles_json(const Model& model, int body) {
   Json out = Json::array();
   for (const DrawnProfile& p : model.profiles)
@@ -183,6 +170,19 @@ Json actuators_json(const System& system, const Drafting& drafting) {
 }
 
 }  // namespace
+
+Json mesh_json(const FlexibleDrawing& body, std::size_t bytes) {
+  const std::size_t shapes = at(body.displacements().cols()), a_point = sizeof(float) * (2 + 6 * shapes) + 6 * 4;
+  const DrawnMesh mesh = drawn_mesh(body, std::max<std::size_t>(bytes / a_point, 50));
+  Line points;
+  for (const int p : mesh.points) points.push_back(body.points().col(p));
+  return {{"points", flat(points)},
+          {"of", body.points().cols()},
+          {"triangles", numbers(mesh.triangles)},
+          {"rim", numbers(mesh.rim)},
+          {"shapes", of_points(body.displacements(), 2, mesh.points)},
+          {"stresses", of_points(body.stresses(), 4, mesh.points)}};
+}
 
 Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_bytes) {
   const Drafting drafting(scene, model);

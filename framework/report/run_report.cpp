@@ -11,6 +11,7 @@
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/common/text.h"
+#include "framework/report/body_report.h"
 #include "framework/report/drawn_model.h"
 #include "framework/report/description.h"
 #include "framework/report/page.h"
@@ -196,6 +197,7 @@ std::string report_page(const fs::path& directory, const ReportLimits& limits) {
   if (const auto results = motion_in(directory)) return motion_page(*results, directory, limits);
   if (const auto results = description(directory, "linearized"); results && fs::exists(directory / "mode_motions.csv"))
     return mode_page(*results, directory, limits);
+  if (const auto out = body_page(directory, limits)) return *out;
   if (const auto out = table_page(directory, limits.rows, limits.text)) return *out;
   throw ResultsError(directory.string() + ": contains no results" +
                      (fs::is_directory(directory) ? "" : ", because there is no such folder") +

@@ -8,7 +8,9 @@ import os
 import unittest
 from pathlib import Path
 
-from driven import Driven, browser, folder, source, table
+from driven import Driven, browser, folder, report, source, table
+
+report("worn", "plate", "warned", "events", "sweep")
 
 
 class Transport(Driven):
@@ -304,35 +306,6 @@ class Study(Driven):
         self.assertEqual(speeds, [150, 200])
         browser.click("#study-clear")
         self.assertEqual(browser.get("document.querySelectorAll('#study-table tbody tr').length"), 4)
-
-
-class OtherResults(Driven):
-    def test_the_chosen_mode_moves_as_its_table_says(self):
-        self.open("modes")
-        names, rows = table("modes/mode_motions.csv")
-        for mode in 1, 3:
-            browser.get(f"((byId('mode').selectedIndex = {mode - 1}), byId('mode').onchange())")
-            browser.click("#step-on")
-            row = [row for row in rows if row[0] == mode][1]
-            shown = browser.get("page.stage.now[1]")
-            self.assertEqual(shown["angle"], row[names.index("coupler.angle")])
-            self.assertEqual(shown["eta"], row[names.index("coupler.mode 1"):][:len(shown["eta"])])
-            self.assertEqual(browser.get("byId('clock').textContent"), "phase 15°")
-            browser.click("#play")
-            browser.wait("page.clock.time < page.clock.begin + 0.03")  # round again
-            browser.click("#play")
-        self.assertEqual(browser.get("page.data.tables[0].file"), "linearized.csv")
-
-    def test_an_equilibrium_is_drawn_with_its_forces_and_values(self):
-        self.open("rest")
-        with open(folder / "rest/statics.csv", newline="") as text:
-            held = dict(list(csv.reader(text))[1:])
-        self.assertEqual(browser.get("page.stage.now[0].angle"), float(held["chassis.angle [rad]"]))
-        arrows = browser.get("page.motion.forces(0, page.stage.now).filter(({name}) => name === 'left coil').map(({force}) => force)")
-        self.assertEqual([arrows[0]["x"], arrows[0]["y"]], [float(held[f"left coil.f{axis} on left lower arm [N]"]) for axis in "xy"])
-        self.assertEqual(browser.get("[byId('transport').hidden, byId('plots').hidden]"), [True, True])
-        shown = browser.get("[...byId('study-table').tBodies[0].rows].map((row) => [...row.cells].map(({title}) => title))")
-        self.assertEqual({name: float(value) for name, value in shown}, {name: float(value) for name, value in held.items()})
 
 
 class Screens(Driven):

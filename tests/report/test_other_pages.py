@@ -1,0 +1,63 @@
+"""Pages of `pintle report` that show no run, driven in headless Chromium: equilibria, modes, static cases.
+
+usage: test_other_pages.py PINTLE"""
+
+import csv
+import json
+import math
+import unittest
+
+from driven import Driven, browser, folder, report, table
+
+report("modes", "rest", "shapes", "loaded")
+
+
+class OtherResults(Driven):
+    def test_the_chosen_mode_moves_as_its_table_says(self):
+        self.open("modes")
+        names, rows = table("modes/mode_motions.csv")
+        for mode in 1, 3:
+            browser.get(f"((byId('mode').selectedIndex = {mode - 1}), byId('mode').onchange())")
+            browser.click("#step-on")
+            row = [row for row in rows if row[0] == mode][1]
+            shown = browser.get("page.stage.now[1]")
+            self.assertEqual(shown["angle"], row[names.index("coupler.angle")])
+            self.assertEqual(shown["eta"], row[names.index("coupler.mode 1"):][:len(shown["eta"])])
+            self.assertEqual(browser.get("byId('clock').textContent"), "phase 15°")
+            browser.click("#play")
+            browser.wait("page.clock.time < page.clock.begin + 0.03")  # round again
+            browser.click("#play")
+        self.assertEqual(browser.get("page.data.tables[0].file"), "linearized.csv")
+
+    def test_an_equilibrium_is_drawn_with_its_forces_and_values(self):
+        self.open("rest")
+        with open(folder / "rest/statics.csv", newline="") as text:
+            held = dict(list(csv.reader(text))[1:])
+        self.assertEqual(browser.get("page.stage.now[0].angle"), float(held["chassis.angle [rad]"]))
+        arrows = browser.get("page.motion.forces(0, page.stage.now).filter(({name}) => name === 'left coil').map(({force}) => force)")
+        self.assertEqual([arrows[0]["x"], arrows[0]["y"]], [float(held[f"left coil.f{axis} on left lower arm [N]"]) for axis in "xy"])
+        self.assertEqual(browser.get("[byId('transport').hidden, byId('plots').hidden]"), [True, True])
+        shown = browser.get("[...byId('study-table').tBodies[0].rows].map((row) => [...row.cells].map(({title}) => title))")
+        self.assertEqual({name: float(value) for name, value in shown}, {name: float(value) for name, value in held.items()})
+
+    def test_a_mode_of_a_cantilever_crosses_it_as_often_as_beams_do(self):
+        self.open("shapes")
+        for mode in range(1, 7):
+            browser.get(f"((byId('mode').selectedIndex = {mode - 1}), byId('mode').onchange())")
+            x, y = browser.get("(({points, world}) => [Array.from(points), Array.from(world, (w, i) => w - points[i])])"
+                               "((page.stage.draw(page.clock.time), page.stage.meshes[0]))")
+            along = sorted((x[i], y[i + 1]) for i in range(0, len(x), 2))
+            crossings = sum((a > 0) != (b > 0) for (_, a), (_, b) in zip(along, along[1:]) if min(abs(a), abs(b)) > 1e-5)
+            self.assertEqual(crossings, mode - 1)
+            self.assertAlmostEqual(max(math.hypot(*y[i:i + 2]) for i in range(0, len(y), 2)) / browser.get("page.stage.model.length"), 0.1, places=3)
+
+    def test_a_static_case_is_bent_and_coloured_as_its_results_say(self):
+        self.open("loaded")
+        held = json.loads((folder / "loaded/static.json").read_text())
+        for mine, value in (("Stress", held["greatest von Mises stress"]["value [Pa]"]), ("Deflection", held["greatest displacement"]["value [m]"])):
+            self.assertAlmostEqual(browser.get(f"page.stage.greatest{mine}") / value, 1, places=5)
+        self.assertGreater(browser.get("page.stage.deformation"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
