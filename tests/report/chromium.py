@@ -120,9 +120,9 @@ class Chromium:
         for letter in text:
             self.key(letter)
 
-    def picture(self, file):
-        """The whole document as PNG."""
-        Path(file).write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", captureBeyondViewport=True)["data"]))
+    def picture(self, file, whole=True):
+        """What the window shows as PNG, or the whole document."""
+        Path(file).write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", captureBeyondViewport=whole)["data"]))
 
     def computed(self):
         """Seconds of the processor in all of its processes."""
