@@ -52,7 +52,7 @@ class Macro(unittest.TestCase):
             with self.subTest(scene):
                 macro = run(self.place, scene)
                 picture = self.place / f"{scene}.png"
-                done = subprocess.run(["xvfb-run", "-a", "pvbatch", macro, picture], capture_output=True, text=True)
+                done = subprocess.run(["xvfb-run", "-a", "-n", str(100 + os.getpid() % 9000), "pvbatch", macro, picture], capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 pixels = (matplotlib.image.imread(picture)[:, :, :3] * 255).round()
                 pixels = pixels[100:-100, :1250]  # without the legends
