@@ -148,6 +148,20 @@ void draw_profiles(const Model& model, const Equations& eq, Drawing& out) {
   }
 }
 
+/// Removes forces and couples that are rounding beside the others and the inertia of the bodies.
+void leave_out_rounding(const System& system, const Equations& eq, Drawing& out) {
+  double largest = 0;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    largest = std::max(largest, system.bodies[b].m * eq.a.segment<2>(static_cast<Eigen::Index>(3 * b)).norm());
+  for (const DrawnForce& f : out.forces) largest = std::max({largest, f.force.norm(), std::abs(f.couple) / system.length});
+  const double rounding = 1e-11 * largest;
+  for (DrawnForce& f : out.forces) {
+    if (f.force.norm() <= rounding) f.force.setZero();
+    if (std::abs(f.couple) <= rounding * system.length) f.couple = 0;
+  }
+  std::erase_if(out.forces, [](const DrawnForce& f) { return f.force.isZero(0) && f.couple == 0; });
+}
+
 }  // namespace
 
 Drawing draw(const Model& model, const Drafting& drafting, const State& state, const Equations& eq) {
@@ -201,6 +215,7 @@ Drawing draw(const Model& model, const Drafting& drafting, const State& state, c
   draw_profiles(model, eq, out);
   draw_actuators(system, drafting, eq, out);
   draw_reactions_and_loads(system, eq, out);
+  leave_out_rounding(system, eq, out);
   follow_points(model, state, eq, out);
   return out;
 }

@@ -210,7 +210,7 @@ void draw_actuators(const System& system, const Drafting& drafting, const Equati
 void draw_reactions_and_loads(const System& system, const Equations& eq, Drawing& out) {
   const FirstOwners first(system);
   const auto add = [&](const Vector2d& at, const Wrench& w, int owner, Giver giver) {
-    if (w.allFinite() && !w.isZero(0)) out.forces.push_back({at, w.head<2>(), owner, giver, w[2]});
+    if (w.allFinite()) out.forces.push_back({at, w.head<2>(), owner, giver, w[2]});
   };
   if (eq.lambda.size() == system.n_rows())
     for (int k = 0; k < static_cast<int>(system.joints.size()); ++k) {
