@@ -1,4 +1,3 @@
-// The only file that includes cairo.
 #include "app/canvas.h"
 
 #include <algorithm>

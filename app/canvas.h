@@ -20,8 +20,8 @@ Colour field_colour(double share);
 
 enum class Align { left, right };
 
-/// A white picture to draw on, in pixels from its lower left corner; later drawings cover earlier ones. Drawn by cairo, which only
-/// canvas.cpp uses; it needs no display.
+/// A white picture to draw on, in pixels from its lower left corner; later drawings cover earlier ones. Drawn by cairo; it needs no
+/// display.
 class Canvas {
  public:
   /// @param letters  font size [px]

@@ -91,8 +91,8 @@ CLI::Validator named() {
       "");
 }
 
-/// A file with a fixed format, for which another ending of its name would be misleading. @param ending  ".svg"   @param what  "a plot is
-/// SVG"
+/// A file with a fixed format, for which another ending of its name would be misleading. @param ending  ".html"   @param what  "a
+/// report is one page of HTML"
 CLI::Validator ends_in(const std::string& ending, const std::string& what) {
   return CLI::Validator(
       [ending, what](const std::string& path) {
@@ -100,6 +100,17 @@ CLI::Validator ends_in(const std::string& ending, const std::string& what) {
         std::filesystem::path other = file;
         return ending_of(file) == ending ? std::string()
                                          : "is " + path + ", but " + what + "; write " + other.replace_extension(ending).string();
+      },
+      "");
+}
+
+CLI::Validator is_picture() {
+  return CLI::Validator(
+      [](const std::string& path) {
+        const std::string ending = ending_of(path);
+        if (ending == ".svg" || ending == ".png" || ending == ".pdf") return std::string();
+        return "is " + path + ", but a plot is written as .svg, .png or .pdf; write " +
+               std::filesystem::path(path).replace_extension(".svg").string();
       },
       "");
 }
@@ -290,8 +301,8 @@ void add_plot_options(CLI::App& command, Options& options) {
   command.add_option("--against", options.against, "the column along x (default: the time), e.g. \"gudgeon pin.ex\"")->type_name("COLUMN");
   command.add_option("-o,--out", options.out, "write a picture to this file; an existing file is replaced (default: plot in the terminal)")
       ->check(named())
-      ->check(ends_in(".svg", "a plot is written as SVG"))
-      ->type_name("FILE.svg");
+      ->check(is_picture())
+      ->type_name("FILE.svg|png|pdf");
   command.add_flag("-q,--quiet", options.quiet, "print errors only");
   command.footer("Exit codes: see pintle --help\n");
 }

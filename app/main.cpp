@@ -63,7 +63,7 @@ int carry_out(int argc, char** argv) {
       {app.add_subcommand("nonlinear", "Find Poincare sections, bifurcation diagrams and Lyapunov exponents"), nonlinear},
       {app.add_subcommand("tradeoff", "Measure error against time over settings of fidelity, and recommend one"), tradeoff},
       {app.add_subcommand("report", "Turn the results of a run into one page: motion, plots, impacts, ledger"), report},
-      {app.add_subcommand("plot", "Plot columns of results in the terminal, or as an SVG picture"), plot},
+      {app.add_subcommand("plot", "Plot columns of results in the terminal, or as a picture (SVG, PNG, PDF)"), plot},
       {app.add_subcommand("film", "Make a film of a run: MP4, WebM or GIF"), film},
       {app.add_subcommand("picture", "Draw a frame of a run, or a field of a body, as a picture"), picture},
       {app.add_subcommand("view", "Show a scene in the browser while it is being written; move it by hand"), view},

@@ -1,4 +1,4 @@
-// Plots of result columns: in the terminal, or as an SVG picture.
+// Plots of result columns: in the terminal, or as a picture.
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -6,12 +6,15 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <optional>
 
+#include "app/cairo_pen.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_end.h"
 #include "framework/common/file.h"
+#include "framework/common/file_names.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
 #include "framework/output/results_directory.h"
@@ -21,6 +24,7 @@
 #include "framework/report/sheets.h"
 #include "framework/scene/units/signal_words.h"
 #include "framework/scene/yaml/reader.h"
+#include "meshes/module.h"
 
 namespace pintle::app {
 
@@ -147,6 +151,18 @@ int terminal_columns() {
   return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? std::clamp<int>(size.ws_col, 40, 200) : 100;
 }
 
+std::string drawn(const std::vector<Panel>& panels, const std::string& ending) {
+  if (ending == ".svg") return svg(panels);
+#ifdef PINTLE_WITH_CAIRO
+  const auto& cairo = module_table<CairoTable>("cairo");
+  const std::unique_ptr<PlotPen> pen(ending == ".pdf" ? cairo.pdf() : cairo.png());
+  return picture(*pen, panels);
+#else
+  throw SceneError("plots are written as " + ending +
+                   " by cairo, which this program was built without: write .svg, or install libcairo2-dev and configure again");
+#endif
+}
+
 }  // namespace
 
 int plot(const Options& options) {
@@ -157,7 +173,7 @@ int plot(const Options& options) {
   }
   const fs::path file = options.out;
   require_file_place(file);
-  write_text(file, svg(panels_of(options, false)));
+  write_text(file, drawn(panels_of(options, false), ending_of(file)));
   if (!options.quiet) std::cout << "  " << file.string() << "\n";
   return ok;
 }

@@ -31,7 +31,7 @@ def main(version, stage, out):
     package = next(stage.rglob("dist-packages/pintle/__init__.py")).parent
     modules = next(stage.rglob("libpintle_vtk.so")).parent
     files = {f"pintle/{f.name}": f for f in package.iterdir() if f.is_file()}
-    files |= {f"pintle/modules/{f.name}": f for f in modules.iterdir() if f.name not in ("libpintle_fmu.so", "libpintle_mpi.so")}  # which the program alone loads
+    files |= {f"pintle/modules/{f.name}": f for f in modules.iterdir() if f.name not in ("libpintle_cairo.so", "libpintle_fmu.so", "libpintle_mpi.so")}  # which the program alone loads
     tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
     tag = f"{tag}-{tag}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
     info = f"pintle-{version}.dist-info"

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
-/// Curves and points as the text of an SVG picture.
+/// Curves and points as a picture.
 namespace pintle {
+
+class PlotPen;
 
 struct Curve {
   std::string label;
@@ -31,6 +33,7 @@ struct Panel {
 };
 
 /// Panels side by side, `columns` in a row.
+std::string picture(PlotPen&, const std::vector<Panel>& panels, std::size_t columns = 2);
 std::string svg(const std::vector<Panel>& panels, std::size_t columns = 2);
 
 }  // namespace pintle

@@ -4,10 +4,12 @@ usage: test_manners.py PINTLE"""
 
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 
 from terminal import interrupted
@@ -67,11 +69,28 @@ class Manners(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(f'--set {path}: a scene has no key "{path.partition(".")[0]}". Did you mean {meant}?', done.stderr)
 
+    def test_plots_as_pictures(self):
+        self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q").returncode, 0)
+        done = self.say("plot", "out", "rod.angle", "-o", "a.gif")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("a plot is written as .svg, .png or .pdf; write a.svg", done.stderr)
+        if not (Path(pintle).parent / "pintle-picture").exists():  # built without cairo
+            self.assertIn("libcairo2-dev", self.say("plot", "out", "rod.angle", "-o", "a.png").stderr)
+            return
+        for name in ("a.png", "a.pdf", "b.pdf"):
+            done = self.say("plot", "out", "rod.angle", "kinetic", "-o", name)
+            self.assertEqual((done.returncode, done.stdout), (0, f"  {name}\n"), done.stderr)
+        png, pdf = (self.place / "a.png").read_bytes(), (self.place / "a.pdf").read_bytes()
+        self.assertEqual(png[:8] + png[12:24], b"\x89PNG\r\n\x1a\nIHDR" + struct.pack(">II", 2080, 780))
+        drawn = [zlib.decompress(part) for part in re.findall(rb"stream\n(.*?)\nendstream", pdf, re.S) if part[:1] == b"x"]
+        self.assertTrue(any(re.search(rb"0\.10588\d* 0\.42352\d* 0\.65882\d* RG", part) for part in drawn))  # the first curve
+        self.assertEqual(pdf, (self.place / "b.pdf").read_bytes())
+
     def test_endings_in_any_case(self):
         self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q", "--set", "output.frames=2").returncode, 0)
         made = [("report", "out", "--out", "a.HTML"), ("plot", "out", "rod.angle", "--out", "a.Svg")]
         if (Path(pintle).parent / "pintle-picture").exists():
-            made.append(("picture", "out", "a.PNG"))
+            made += [("picture", "out", "a.PNG"), ("plot", "out", "rod.angle", "--out", "b.Png"), ("plot", "out", "rod.angle", "--out", "b.PDF")]
         if (Path(pintle).parent / "pintle-fmu").exists():
             made.append(("fmu", "swing.pintle.yaml", "--out", "a.FMU"))
         for words in made:
