@@ -199,8 +199,7 @@ std::vector<FrameFiles> unlisted_frames(const fs::path& folder) {
 
 std::vector<FrameFiles> frames_of(const fs::path& directory) {
   const fs::path pvd = directory / "mechanism.pvd";
-  if (!fs::is_directory(directory))
-    throw std::runtime_error(directory.string() + ": no such folder; name one that `pintle run` has written");
+  if (!fs::is_directory(directory)) throw std::runtime_error(directory.string() + ": " + no_such_folder(directory));
   if (!fs::is_regular_file(pvd)) {
     std::vector<FrameFiles> kept = unlisted_frames(directory / "frames");
     if (kept.empty()) {

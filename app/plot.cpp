@@ -41,8 +41,7 @@ struct PlottedColumn {
 
 /// The tables in a folder whose first column is a time.
 std::vector<fs::path> tables_in(const fs::path& directory) {
-  if (!fs::is_directory(directory))
-    throw ResultsError(directory.string() + ": there is no such folder; name one that `pintle run` has written");
+  if (!fs::is_directory(directory)) throw ResultsError(directory.string() + ": " + no_such_folder(directory));
   std::vector<fs::path> out;
   for (const char* const name : {"trajectory.csv", "ledger.csv"})
     if (fs::exists(directory / name)) out.push_back(directory / name);
@@ -167,6 +166,7 @@ std::string drawn(const std::vector<Panel>& panels, const std::string& ending) {
 
 int plot(const Options& options) {
   now_doing("reading the results");
+  tell_if_unfinished(options.scene);
   if (options.out.empty()) {
     for (const Panel& panel : panels_of(options, true)) std::cout << terminal_plot(panel, terminal_columns(), 19);
     return ok;

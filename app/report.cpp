@@ -24,12 +24,14 @@ void write_report(const fs::path& directory, const fs::path& file, double megaby
 int report(const Options& options) {
   const fs::path directory = without_slash(options.scene);
   const fs::path file = options.out.empty() ? directory / "report.html" : fs::path(options.out);
+  if (!fs::exists(directory) && !leftovers(directory).empty()) throw ResultsError(directory.string() + ": " + no_such_folder(directory));
   const bool there = fs::is_directory(directory), shown = there && (time_of_last_row(directory) || has_table_page(directory));
   if (fs::exists(directory / "part.json"))
     throw ResultsError(directory.string() + ": holds a part of a sweep; join all its parts by pintle merge, and report the result");
   const std::string why = there && !shown ? why_without("motion", directory) : "";
   if (!why.empty()) throw ResultsError(directory.string() + ": has nothing to show: " + why);
   if (!options.out.empty()) require_file_place(file);
+  tell_if_unfinished(directory);
   write_report(directory, file, options.megabytes);
   if (!options.quiet)
     std::cout << "  " << file.string() << "  " << number(static_cast<double>(fs::file_size(file)) / 1e6, 3)

@@ -8,6 +8,7 @@
 
 #include "app/progress.h"
 #include "framework/common/file.h"
+#include "framework/report/description.h"
 
 namespace pintle::app {
 
@@ -62,6 +63,14 @@ void tell_leftovers(const Options& options, const fs::path& out) {
     if (const auto t = time_of_last_row(all[k])) std::cerr << " (to t = " << number(*t) << " s)";
   }
   std::cerr << (all.size() > most ? " …" : "") << "; rename those worth keeping and remove the rest\n";
+}
+
+void tell_if_unfinished(const fs::path& directory) {
+  const auto t = time_of_last_row(directory);
+  if (!t || !is_unfinished(directory)) return;
+  std::cerr << directory.string()
+            << (is_being_filled(directory) ? ": the run is still going on; so far its rows" : ": the run did not finish; its rows")
+            << " end at t = " << number(*t) << " s\n";
 }
 
 void write_whole(const Options& options, const fs::path& out, const std::function<void(const fs::path&)>& write) {

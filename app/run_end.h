@@ -18,6 +18,9 @@ void require_file_place(const std::filesystem::path& file);
 /// Reports what other runs have left next to `out`, if stderr is a terminal.
 void tell_leftovers(const Options&, const std::filesystem::path& out);
 
+/// Says on stderr if a run that fills this folder has not ended, and how far it came.
+void tell_if_unfinished(const std::filesystem::path& directory);
+
 /// Writes computed results: `write` fills a folder, which is then renamed to `out`. @throws FileError
 void write_whole(const Options&, const std::filesystem::path& out, const std::function<void(const std::filesystem::path&)>& write);
 

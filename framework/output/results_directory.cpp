@@ -81,6 +81,14 @@ std::vector<fs::path> leftovers(const fs::path& directory) {
   return out;
 }
 
+std::string no_such_folder(const fs::path& directory) {
+  const std::vector<fs::path> begun = leftovers(directory);
+  if (begun.empty()) return "there is no such folder; name one that `pintle run` has written";
+  std::string names;
+  for (const fs::path& folder : begun) names += (names.empty() ? "" : ", ") + folder.string();
+  return "there is no such folder; a run into it has not ended, or was killed: " + names;
+}
+
 std::optional<double> time_of_last_row(const fs::path& folder) {
   constexpr std::streamoff widest = 1 << 20;  // of a row
   std::ifstream in(folder / "trajectory.csv", std::ios::binary);

@@ -35,6 +35,9 @@ std::filesystem::path without_slash(const std::filesystem::path&);
 /// Leftovers of aborted or unfinished runs next to a results directory.
 std::vector<std::filesystem::path> leftovers(const std::filesystem::path& directory);
 
+/// For a message about a folder that does not exist: "there is no such folder; " and what to name instead, or its leftovers.
+std::string no_such_folder(const std::filesystem::path& directory);
+
 /// The time of the last complete row of its trajectory.csv: how far a killed run had come, to within about a second of computing.
 std::optional<double> time_of_last_row(const std::filesystem::path& folder);
 

@@ -172,10 +172,20 @@ class KilledRun(unittest.TestCase):
     def test_what_is_there_is_shown_and_where_it_ends(self):
         frames = scene.replace("states: 2 s", "frames: 20001")  # one each second of the motion
         (self.place / "scene.yaml").write_text(frames)
-        left = self.killed(600).rename(self.place / "kept")  # 3 s
+        left = self.killed(600)  # 3 s
+        shown = [("report", "killed-600"), ("plot", "killed-600", "t")]
+        if (Path(pintle).parent / "pintle-picture").exists():
+            shown += [("picture", "killed-600", "a.png"), ("film", "killed-600", "a.mp4")]
+        for words in shown:
+            done = subprocess.run([pintle, *words], cwd=self.place, capture_output=True, text=True)
+            self.assertIn("killed-600: there is no such folder; a run into it has not ended, or was killed: " + left.name, done.stderr)
+        left = left.rename(self.place / "kept")
+        told = "kept: the run did not finish; its rows end at t = "
+        self.assertIn(told, subprocess.run([pintle, "plot", "kept", "rod.angle"], cwd=self.place, capture_output=True, text=True).stderr)
         done = subprocess.run([pintle, "report", "kept"], cwd=self.place, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("unfinished", (left / "report.html").read_text())
+        self.assertIn(told, done.stderr)
         with (left / "trajectory.csv").open("ab") as table:
             table.write(b"9999,1,2")  # a row that the kill has cut
         self.assertEqual(subprocess.run([pintle, "report", "kept"], cwd=self.place).returncode, 0)
