@@ -166,6 +166,7 @@ std::string drawn(const std::vector<Panel>& panels, const std::string& ending) {
 
 int plot(const Options& options) {
   now_doing("reading the results");
+  is_lost_if_stopped("nothing was plotted");
   tell_if_unfinished(options.scene);
   if (options.out.empty()) {
     for (const Panel& panel : panels_of(options, true)) std::cout << terminal_plot(panel, terminal_columns(), 19);

@@ -22,6 +22,7 @@ namespace {
 volatile std::sig_atomic_t asked_by = 0;
 using clock = std::chrono::steady_clock;
 std::atomic<const char*> activity = "starting";
+std::atomic<const char*> lost = "there are no results yet";
 std::atomic<clock::rep> activity_begin = clock::now().time_since_epoch().count();
 std::string kept, kept_note;  // prepared in advance, since memory may be lacking later
 
@@ -46,7 +47,11 @@ extern "C" void end_at_once(int signal) {
   if (::isatty(STDERR_FILENO)) say("\r\033[K");  // a progress line may be there
   say("pintle: "), say(stop_words(signal)), say(" while "), say(activity);
   const char* where = where_results_are();
-  say(*where != '\0' ? where : "; there are no results yet"), say("\n");
+  if (*where != '\0')
+    say(where);
+  else
+    say("; "), say(lost);
+  say("\n");
   constexpr int stopped = 6;
   ::_exit(stopped);
 }
@@ -155,6 +160,8 @@ void results_are_in(const std::string& folder) {
   kept_note = folder.empty() ? "" : "; what was computed is in " + folder;
   kept = folder;
 }
+
+void is_lost_if_stopped(const char* what) { lost = what; }
 
 const char* where_results_are() { return !kept.empty() && ::access(kept.c_str(), F_OK) == 0 ? kept_note.c_str() : ""; }
 

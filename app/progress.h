@@ -33,6 +33,8 @@ const char* what_is_done();
 double doing_since();  ///< duration of the present activity [s]
 /// Sets the folder of the results, for a message if the program ends early. Empty: none.
 void results_are_in(const std::string& folder);
+/// Sets what a message says instead of "there are no results yet" if the program is stopped. The text must stay valid.
+void is_lost_if_stopped(const char* what);
 /// "; what was computed is in …", if there is a folder.
 const char* where_results_are();
 

@@ -22,6 +22,7 @@ void write_report(const fs::path& directory, const fs::path& file, double megaby
 }
 
 int report(const Options& options) {
+  is_lost_if_stopped("the page was not written");
   const fs::path directory = without_slash(options.scene);
   const fs::path file = options.out.empty() ? directory / "report.html" : fs::path(options.out);
   if (!fs::exists(directory) && !leftovers(directory).empty()) throw ResultsError(directory.string() + ": " + no_such_folder(directory));

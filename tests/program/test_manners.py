@@ -4,6 +4,7 @@ usage: test_manners.py PINTLE"""
 
 import os
 import re
+import signal
 import struct
 import subprocess
 import sys
@@ -280,6 +281,17 @@ class Manners(unittest.TestCase):
                                   "--set", "output.every=1e4 s"], self.place, b"running to the state: ")
         self.assertEqual(code, 6)
         self.assertIn(b"stopped by the user (Ctrl-C) while running to the state; there are no results yet", said)
+
+    def test_who_stops_a_report_or_a_plot_is_told_what_is_missing(self):
+        self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q").returncode, 0)
+        for read, words, said in (("inverse.json", ("report", "out"), "while writing the report; the page was not written"),
+                                  ("ledger.csv", ("plot", "out", "kinetic"), "while reading the results; nothing was plotted")):
+            (self.place / "out" / read).unlink(missing_ok=True)
+            os.mkfifo(self.place / "out" / read)
+            process = subprocess.Popen([pintle, *words], cwd=self.place, stderr=subprocess.PIPE, text=True)
+            with (self.place / "out" / read).open("w"):  # opens once the program does, which then waits for what is written
+                process.send_signal(signal.SIGINT)
+                self.assertEqual((process.communicate()[1], process.returncode), (f"pintle: stopped by the user (Ctrl-C) {said}\n", 6))
 
 
 if __name__ == "__main__":
