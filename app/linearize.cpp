@@ -119,6 +119,9 @@ int linearize(const Options& options) {
   Scene scene = read_scene(options.scene, overrides(options));
   if (!options.at.empty() && !options.at_rest) require_run(scene);
   const double t = options.at.empty() ? 0 : instant(options);
+  if (!options.at.empty() && !options.at_rest && t > scene.run.until)
+    std::cerr << "warning: --at " << options.at << ": the run ends at " << number(scene.run.until)
+              << " s (run.until); it is continued to the state\n";
   scene = with_pieces(std::move(scene));
   const fs::path out = results_directory(options, "-linearize");
   require_place(out);

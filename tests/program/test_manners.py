@@ -282,6 +282,11 @@ class Manners(unittest.TestCase):
         self.assertEqual(code, 6)
         self.assertIn(b"stopped by the user (Ctrl-C) while running to the state; there are no results yet", said)
 
+    def test_a_state_after_the_end_of_the_run(self):
+        told = "warning: --at 0.2 s: the run ends at 0.1 s (run.until); it is continued to the state\n"
+        self.assertIn(told, self.say("linearize", "swing.pintle.yaml", "--at", "0.2 s").stderr)
+        self.assertEqual(self.say("linearize", "swing.pintle.yaml", "--at", "0.1 s").stderr, "")
+
     def test_who_stops_a_report_or_a_plot_is_told_what_is_missing(self):
         self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q").returncode, 0)
         for read, words, said in (("inverse.json", ("report", "out"), "while writing the report; the page was not written"),
