@@ -237,6 +237,12 @@ class Manners(unittest.TestCase):
         self.assertIn('Did you mean "rod.angle"?', self.refusal("outputs: {seen: rod.angel}\n"))
         self.assertIn('"rod" has alpha', self.refusal("outputs: {seen: rod.stroke}\n"))
 
+    def test_a_condition_that_is_a_number(self):
+        for when, said in (("rod.speed", '"rod.speed" is a number in rad/s; write a comparison such as rod.speed > 1 rad/s'),
+                           ("rod.x", '"rod.x" is a number in m; write a comparison such as rod.x > 1 m'),
+                           ("2*rod.x", '"2*rod.x" is a number; write a comparison such as rod.angle > 30 deg')):
+            self.assertIn(f"refused.yaml:7: events.e.when: {said}\n", self.refusal(f"events: {{e: {{when: {when}, do: {{stop: now}}}}}}\n"))
+
     def test_a_table_that_is_not_there_is_told_by_the_line_that_names_it(self):
         (self.place / "load.csv").write_text("0 0\n1 1\n")
         (self.place / "load.txt").write_text("")

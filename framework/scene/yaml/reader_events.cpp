@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <numbers>
 
@@ -104,6 +105,29 @@ std::vector<Law> read_comparisons(const Node& node, const Law& condition) {
   return out;
 }
 
+// A signal alone, or a formula of signals that compares nothing.
+void refuse_number(const Node& when, const SignalNames& names) {
+  const std::string text = when.expression("a comparison");
+  std::vector<Word> words;
+  try {
+    words = spell(text, {when.source().parameters, {}, &names});
+  } catch (const ExpressionError&) {  // reported when it is read
+    return;
+  }
+  const auto compares = [](const Word& word) {
+    return std::ranges::any_of(std::array{"<", ">", "<=", ">=", "==", "!=", "&&", "||"},
+                               [&](const char* sign) { return word.text == sign; });
+  };
+  if (std::ranges::none_of(words, [](const Word& word) { return word.kind == Word::Kind::signal; }) || std::ranges::any_of(words, compares))
+    return;
+  std::string unit, example = "rod.angle > 30 deg";
+  if (words.size() == 1) {
+    unit = si_unit(names.find(text)->second.dimension);
+    example = text + " > 1" + (unit.empty() ? "" : " " + unit);
+  }
+  when.fail("\"" + text + "\" is a number" + (unit.empty() ? "" : " in " + unit) + "; write a comparison such as " + example);
+}
+
 // "arm.angle > 30", which may be meant in degrees.
 void doubt_bare_angles(const Node& when, const SignalNames& names) {
   std::vector<std::string>* doubts = when.source().doubts;
@@ -136,6 +160,7 @@ SceneEvent read_event(const Node& node, const Scene& scene, const SignalNames& n
   event.place = node.place();
   check_keys(node, "events.*");
   const Node when = node.at("when");
+  refuse_number(when, names);
   event.guard = read_event_law(when, dimension::number, names);
   event.when = read_comparisons(when, event.guard);
   doubt_bare_angles(when, names);
