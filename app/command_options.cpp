@@ -349,6 +349,7 @@ void add_options(CLI::App& command, Options& options) {
   if (name == "run") return;
   if (name == "linearize") return add_linearize_options(command, options);
   if (name == "kinematics" || name == "inverse") {
+    command.add_flag("--report", options.report, "also write a page of the results, DIR/report.html");
     command.footer(name == "inverse" ? what_inverse_writes : what_kinematics_writes);
     return;
   }

@@ -6,6 +6,7 @@
 
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/report.h"
 #include "app/run_end.h"
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
@@ -117,6 +118,15 @@ std::string effort_text(const Inverse& found, std::size_t d, const fs::path& out
          (std::isnan(e.error) ? "" : " (error of a spline through every second row: " + number(e.error, 2) + unit + " at most)");
 }
 
+/// Writes a page of the results if there are some and it is asked for.
+int ended(const Options& options, const Scene& scene, const Run& run, const fs::path& out) {
+  if (options.report && run.status != Status::not_written) {
+    write_report(out, out / "report.html", options.megabytes);
+    if (!options.quiet && !options.json) std::cout << "  report: " << (out / "report.html").string() << "\n";
+  }
+  return exit_code(options, scene, run);
+}
+
 }  // namespace
 
 int kinematics(const Options& options) {
@@ -149,7 +159,7 @@ int kinematics(const Options& options) {
     std::cout << kinematics_json(scene, model, run);
   else if (!options.quiet)
     print(scene, run, run_rows(run), out);
-  return exit_code(options, scene, run);
+  return ended(options, scene, run, out);
 }
 
 int inverse(const Options& options) {
@@ -189,7 +199,7 @@ int inverse(const Options& options) {
     rows.insert(rows.end(), more.begin(), more.end());
     print(scene, found.run, rows, out);
   }
-  return exit_code(options, scene, found.run);
+  return ended(options, scene, found.run, out);
 }
 
 }  // namespace pintle::app

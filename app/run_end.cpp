@@ -102,8 +102,9 @@ void finish_run(ResultsDirectory& results, Run& run, const std::function<void()>
     attempt(report);
   if (whole || run.reason.find("the results are in") != std::string::npos) return;
   if (!results.holds_files()) return void(run.reason += "; no results could be written");
-  run.reason += "; what was computed" + (run.t_end > 0 ? " up to t = " + number(run.t_end) + " s" : std::string()) + " is in " +
-                results.path().string();
+  const double last = time_of_last_row(results.path()).value_or(0);  // rows after it were lost
+  run.reason +=
+      "; what was computed" + (last > 0 ? " up to t = " + number(last) + " s" : std::string()) + " is in " + results.path().string();
 }
 
 int exit_code(const Options& options, const Scene& scene, const Run& run) {

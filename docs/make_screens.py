@@ -29,7 +29,7 @@ others = {
     "fit": ("A fit", ["fit", "studies/fit_chebyshev.yaml"]),
     "bifurcation": ("A bifurcation diagram", ["nonlinear", "studies/duffing.yaml"]),
 }
-show = {"bracket": "byId('show-stress').click()", "bifurcation": "byId('study-scatter').scrollIntoView({block: 'center'})"}
+show = {"bifurcation": "byId('study-scatter').scrollIntoView({block: 'center'})"}
 
 
 def page_of(pintle, scene, work):

@@ -141,6 +141,7 @@ function listenToOptions(page) {
     box.onchange = () => ((stage.show[what] = box.checked), showColourBar(stage), page.redraw());
   }
   byId("stress-option").hidden = byId("show-stress").disabled = Boolean(page.data.modes) || !stage.meshes.some((mesh) => mesh);  // enlarged modes have none
+  if (stage.show.stress) showColourBar(stage);
   byId("force-option").hidden = stage.usualForce === 0 && stage.usualCouple === 0;
   byId("arrows").oninput = ({target}) => ((stage.arrows = 2 ** target.value), page.redraw());
   slider(

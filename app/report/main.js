@@ -52,7 +52,10 @@ class Page {
     this.events = data.events ? new EventTable(this.clock, data.events, "impact", "strongest") : null;
     this.actions = data.actions ? new EventTable(this.clock, data.actions, "action", "first") : null;
     this.panels = [];
-    for (const {names, against} of firstPlots(data.model, this.table)) this.addPlot(names, against);
+    this.stage.show.stress = t.length === 1 && this.stage.meshes.some((mesh) => mesh);
+    this.overTime = t.length > 1 && !data.modes;  // else there is nothing to plot
+    if (this.overTime)
+      for (const {names, against} of firstPlots(data.model, this.table)) this.addPlot(names, against);
     if (!(data.ledger?.rows > 0)) return;
     const ledger = readTable(data.ledger);
     this.ledger = new LedgerPanel(this.clock, ledger, data.run);

@@ -75,6 +75,12 @@ class Folders(unittest.TestCase):
             self.refusal("frameless: holds no frames (mechanism.pvd); run its scene again with --set output.frames=100",
                          "picture", "frameless", "a.png")
 
+    def test_driven_motions_have_a_report_too(self):
+        examples = Path(__file__).resolve().parents[2] / "examples"
+        for question, file in (("kinematics", "kinematics_quick_return.yaml"), ("inverse", "inverse_four_bar.yaml")):
+            self.done(question, examples / file, "--out", question, "-q", "--report")
+            self.assertIn("<!DOCTYPE html>", (self.place / question / "report.html").read_text())
+
     def test_a_study(self):
         self.done("sweep", "sweep.yaml", "--out", "sweep", "-q")
         self.done("fit", "fit.yaml", "--out", "fit", "-q")

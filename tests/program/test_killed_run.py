@@ -5,6 +5,7 @@ usage: test_killed_run.py PINTLE"""
 
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -168,6 +169,15 @@ class KilledRun(unittest.TestCase):
             said = subprocess.run([pintle, "run", "scene.yaml", "--out", folder.name.partition(".part-")[0], "--set", "run.until=5 ms"], cwd=self.place,
                                   capture_output=True, text=True)
             self.assertIn(folder.name + (f" (to t = {reached:.6g} s)" if reached > 0 else ""), said.stderr)
+
+    def test_a_full_disk_is_told_with_the_time_of_the_last_row(self):
+        def full():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
+        done = subprocess.run([pintle, "run", "scene.yaml", "--out", "out", "--quiet"], cwd=self.place, capture_output=True, text=True, preexec_fn=full)
+        self.assertEqual(done.returncode, 1)
+        (left,) = self.place.glob("out.part-*")
+        last = float((left / "trajectory.csv").read_text().splitlines()[-1].split(",")[0])
+        self.assertIn(f"what was computed up to t = {last:.6g} s is in {left.name}", done.stderr)
 
     def test_what_is_there_is_shown_and_where_it_ends(self):
         frames = scene.replace("states: 2 s", "frames: 20001")  # one each second of the motion

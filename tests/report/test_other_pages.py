@@ -57,6 +57,7 @@ class OtherResults(Driven):
         for mine, value in (("Stress", held["greatest von Mises stress"]["value [Pa]"]), ("Deflection", held["greatest displacement"]["value [m]"])):
             self.assertAlmostEqual(browser.get(f"page.stage.greatest{mine}") / value, 1, places=5)
         self.assertGreater(browser.get("page.stage.deformation"), 1)
+        self.assertEqual(browser.get("byId('colour-most').textContent"), "33.2 MPa")
 
 
 if __name__ == "__main__":
