@@ -346,9 +346,9 @@ class Screens(Driven):
         self.assertEqual(set(names), {"left"})
 
     def test_no_page_is_wider_than_its_window(self):
-        for name in "worn", "plate", "sweep":
-            for scheme in "light", "dark":
-                for width, height, mobile in (1400, 1000, False), (390, 844, True):
+        for name, schemes in ("worn", ("light", "dark")), ("warned", ("light",)), ("plate", ("light",)), ("sweep", ("dark",)):
+            for scheme in schemes:
+                for width, height, mobile in (1400, 1000, False), (1020, 760, False), (390, 844, True):
                     with self.subTest(page=name, scheme=scheme, width=width):
                         self.open(name, width, height, scheme=scheme, mobile=mobile)
                         self.assertLessEqual(browser.get("document.documentElement.scrollWidth"), width)
