@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "eigen_layout.h"
 #include "framework/report/run_report.h"
 
 namespace pintle {

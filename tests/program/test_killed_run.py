@@ -171,13 +171,16 @@ class KilledRun(unittest.TestCase):
             self.assertIn(folder.name + (f" (to t = {reached:.6g} s)" if reached > 0 else ""), said.stderr)
 
     def test_a_full_disk_is_told_with_the_time_of_the_last_row(self):
-        def full():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
-        done = subprocess.run([pintle, "run", "scene.yaml", "--out", "out", "--quiet"], cwd=self.place, capture_output=True, text=True, preexec_fn=full)
-        self.assertEqual(done.returncode, 1)
-        (left,) = self.place.glob("out.part-*")
-        last = float((left / "trajectory.csv").read_text().splitlines()[-1].split(",")[0])
-        self.assertIn(f"what was computed up to t = {last:.6g} s is in {left.name}", done.stderr)
+        run = subprocess.Popen([pintle, "run", "scene.yaml", "--out", "out", "--quiet"], cwd=self.place, stderr=subprocess.PIPE, text=True)
+        while not (files := list(self.place.glob("out.part-*/trajectory.csv"))) or files[0].stat().st_size < 100_000:
+            time.sleep(0.01)
+        limit = files[0].stat().st_size + 50_000
+        resource.prlimit(run.pid, resource.RLIMIT_FSIZE, (limit, limit))  # as a disk that becomes full
+        said = run.communicate()[1]
+        self.assertEqual(run.returncode, 1, said)
+        table = next(self.place.glob("out*/trajectory.csv"))
+        rows = [row for row in table.read_text().splitlines(True) if row.endswith("\n")]
+        self.assertIn(f"what was computed up to t = {float(rows[-1].split(',')[0]):.6g} s is in {table.parent.name}", said)
 
     def test_what_is_there_is_shown_and_where_it_ends(self):
         frames = scene.replace("states: 2 s", "frames: 20001")  # one each second of the motion

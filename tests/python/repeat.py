@@ -159,7 +159,7 @@ def kept(part, rounds):
 if __name__ == "__main__":
     libc = ctypes.CDLL(None)
     warnings.simplefilter("ignore", pintle.ModelWarning)
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 20
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 8
     smallest = 32  # of glibc's blocks [B]: one that each round leaves is at least this
     leaks = False
     for part in [p for p in everything if p.__name__ in sys.argv[2:]] or everything:

@@ -206,7 +206,7 @@ TEST_F(Picture, FilesInPlaceOfAFolderOfResultsAreToldWhatToGive) {
   expect_refused({"film", "out/frames/00000.vtu", "a.mp4"}, {"folder of a run"});
   expect_refused({"picture", "scene.yaml", "a.png"}, {"scene.yaml", "pintle run"});
   expect_refused({"picture", "nowhere", "a.png"}, {"nowhere", "pintle run"}, 1);
-  expect_refused({"picture", "nowhere.vtu", "a.png", "--field", "x"}, {"nowhere.vtu: no such"}, 1);
+  expect_refused({"picture", "nowhere.vtu", "a.png", "--field", "x"}, {"nowhere.vtu: there is no such"}, 1);
   expect_refused({"picture", "out", "missing/a.png"}, {"missing/a.png"}, 1);
 }
 

@@ -134,7 +134,7 @@ const std::vector<Foreign> foreign{
     {"vtk",
      {"framework/drawing/vtk_encoder.cpp", "app/picture.cpp", "app/frames.cpp", "tests/unit/frame_files.h", "tests/unit/vtk_test.cpp",
       "tests/unit/flexible_frame_test.cpp"}},
-    {"cairo", {"app/canvas.cpp"}},
+    {"cairo", {"app/canvas.cpp", "app/cairo_pen.cpp"}},
     {"httplib", {"app/view/server.cpp"}},
     {"hdf5", {"app/hdf5/hdf5_file.cpp"}},
     {"libxml/", {"app/fmu/model_description.cpp", "tests/fmi/importer.cpp"}},
