@@ -172,6 +172,7 @@ TEST(EventRefusal, NamesWhatIsWrongInTheScene) {
   for (const auto& [events, said] : {
            Bad{"e: {when: t > 1 s, do: {release: rets}}", "Did you mean \"rest\"?"},
            Bad{"e: {when: t > 1 s, do: {release: rest, engage: rest}}", "released and engaged by one event"},
+           Bad{"e: {when: \" ball.y \", do: {release: rest}}", "a number in m; write a comparison such as ball.y > 1 m"},
            Bad{"e: {when: ball.y, do: {release: rest}}", "is a number in m; write a comparison such as ball.y > 1 m"},
            Bad{"e: {when: ball.y == 1 m, do: {release: rest}}", "passes a value"},
            Bad{"e: {when: \"t > 1 s || t < 0.1 s\", do: {release: rest}}", "write two"},

@@ -122,8 +122,8 @@ void refuse_number(const Node& when, const SignalNames& names) {
     return;
   std::string unit, example = "rod.angle > 30 deg";
   if (words.size() == 1) {
-    unit = si_unit(names.find(text)->second.dimension);
-    example = text + " > 1" + (unit.empty() ? "" : " " + unit);
+    unit = si_unit(names.find(words[0].text)->second.dimension);
+    example = words[0].text + " > 1" + (unit.empty() ? "" : " " + unit);
   }
   when.fail("\"" + text + "\" is a number" + (unit.empty() ? "" : " in " + unit) + "; write a comparison such as " + example);
 }
