@@ -4,6 +4,7 @@ import tempfile
 import unittest
 import warnings
 from pathlib import Path
+from unittest import mock
 
 import pintle
 from common import examples, pendulum
@@ -48,12 +49,13 @@ class Scenes(unittest.TestCase):
                  "sweep": {"grid": {"run.tolerance": [1e-6]}}}
         for call, wrong, key in ((pintle.sweep, {"sweep": {"gird": {}}}, "sweep.gird"), (pintle.sweep, {"scene": "nowhere.yaml"}, "scene"),
                                  (pintle.fit, {"measure": {"lost": "energy lots"}}, "measure.lost")):
-            with self.subTest(wrong=wrong), self.assertRaises(pintle.SceneError) as caught:
+            with tempfile.TemporaryDirectory() as temporary, mock.patch("tempfile.tempdir", temporary), self.subTest(wrong=wrong), \
+                    self.assertRaises(pintle.SceneError) as caught:
                 call({**study, **wrong})
             error = caught.exception
             self.assertEqual((error.file, error.line, error.key), (None, None, key))
             self.assertEqual(str(error), f"<dict>: {error.key}: {error.message}")
-            self.assertNotIn(tempfile.gettempdir(), error.message)
+            self.assertNotIn(temporary, error.message)
         with tempfile.TemporaryDirectory() as place:
             self.assertEqual(pintle.sweep(study, out=f"{place}/out").info["file"], "<dict>")
             self.assertIn('"file": "<dict>"', Path(f"{place}/out/sweep.json").read_text())
