@@ -136,7 +136,7 @@ std::vector<Panel> panels_of(const Options& options, bool one_each) {
                      .x_label = x.heading(),
                      .y_label = "[" + y.name.unit + "]",
                      .curves = {},
-                     .equal = y.name.unit == x.name.unit});
+                     .equal = against != "t" && y.name.unit == x.name.unit});
     }
     Panel& panel = out[of_unit[unit]];
     if (!panel.curves.empty()) panel.title.clear();

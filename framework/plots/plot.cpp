@@ -110,7 +110,9 @@ Axes axes_of(const Panel& p, double x_at, double y_at) {
   if (fit_y) y0 = INFINITY, y1 = -INFINITY;
   for (const Curve& c : p.curves)
     for (std::size_t i = 0; i < c.x.size(); ++i) {
+      if (!std::isfinite(c.x[i])) continue;
       if (fit_x) x0 = std::min(x0, c.x[i]), x1 = std::max(x1, c.x[i]);
+      if (!std::isfinite(c.y[i])) continue;
       if (fit_y && (fit_x || (c.x[i] >= x0 && c.x[i] <= x1))) y0 = std::min(y0, c.y[i]), y1 = std::max(y1, c.y[i]);
     }
   if (!(x0 <= x1)) x0 = 0, x1 = 1;  // there are no points
@@ -152,7 +154,10 @@ void ticks(PlotPen& pen, const Axes& axes, bool horizontal, bool log) {
   const double step = log ? std::max(1.0, std::round(tick_step(b - a))) : tick_step(b - a);
   const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
   for (double k = std::ceil(a / step - 1e-9); k * step <= b + 1e-9 * step; ++k)
-    tick(pen, axes, k * step, horizontal, log ? printed("1e%.0f", k * step) : printed("%.*f", digits, k * step + 0.0));
+    tick(pen, axes, k * step, horizontal,
+         log                                     ? printed("1e%.0f", k * step)
+         : step < 1e-6 || std::max(-a, b) >= 1e6 ? printed("%.4g", k * step + 0.0)
+                                                 : printed("%.*f", digits, k * step + 0.0));
 }
 
 void labels(PlotPen& pen, const Panel& p, const Axes& axes) {
@@ -172,16 +177,25 @@ PlotPen::Points thinned(const std::vector<double>& x, const std::vector<double>&
   return out;
 }
 
+/// A value that is not a finite number interrupts the curve; one between two such values is drawn as a dot.
 void curve(PlotPen& pen, const Panel& p, const Axes& axes, std::size_t k) {
   const Curve& c = p.curves[k];
   std::vector<double> x, y;
+  const double radius = c.x.size() > 400 ? 1 : 2.5;  // smaller if there are many, so that they do not merge
+  const auto draw_part = [&] {
+    const bool dots = p.log || c.points || x.size() == 1;
+    if (x.size() > 1 && !c.points) pen.curve(thinned(x, y), colour_of(k), c.dashed);
+    for (std::size_t i = 0; dots && i < x.size(); ++i) pen.dot(x[i], y[i], {colour_of(k), radius, c.hollow});
+    x.clear(), y.clear();
+  };
   for (std::size_t i = 0; i < c.x.size(); ++i) {
     const bool near = p.equal || p.log || (c.x[std::min(i + 1, c.x.size() - 1)] >= axes.x0 && c.x[i > 0 ? i - 1 : 0] <= axes.x1);
-    if (near) x.push_back(axes.px(c.x[i])), y.push_back(std::clamp(axes.py(c.y[i]), -2000.0, 6000.0));
+    if (!std::isfinite(c.x[i]) || !std::isfinite(c.y[i]))
+      draw_part();
+    else if (near)
+      x.push_back(axes.px(c.x[i])), y.push_back(std::clamp(axes.py(c.y[i]), -2000.0, 6000.0));
   }
-  if (!x.empty() && !c.points) pen.curve(thinned(x, y), colour_of(k), c.dashed);
-  const double radius = x.size() > 400 ? 1 : 2.5;  // smaller if there are many, so that they do not merge
-  for (std::size_t i = 0; (p.log || c.points) && i < x.size(); ++i) pen.dot(x[i], y[i], {colour_of(k), radius, c.hollow});
+  draw_part();
 }
 
 void legend(PlotPen& pen, const Panel& p, const Axes& axes) {

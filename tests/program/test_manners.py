@@ -87,6 +87,18 @@ class Manners(unittest.TestCase):
         self.assertTrue(any(re.search(rb"0\.10588\d* 0\.42352\d* 0\.65882\d* RG", part) for part in drawn))  # the first curve
         self.assertEqual(pdf, (self.place / "b.pdf").read_bytes())
 
+    def test_a_plot_leaves_out_what_is_no_number(self):
+        (self.place / "gone.yaml").write_text(pendulum + "output: {every: 10 ms}\noutputs: {gone: 'sqrt(t - 0.05 s)', far: '1e21*t'}\n")
+        done = self.say("run", "gone.yaml", "--out", "gone", "-q")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.say("plot", "gone", "gone", "far", "-o", "gone.svg")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        drawn = (self.place / "gone.svg").read_text()
+        self.assertNotIn("nan", drawn)
+        self.assertIn(">5e+19<", drawn)
+        first = min(float(x) for x in re.search("stroke='#1b6ca8' d='M(.*?)'", drawn)[1].replace("L", " ").split()[::2])
+        self.assertGreater(first, 78 + 0.49 * 426)  # nothing before half of the time
+
     def test_endings_in_any_case(self):
         self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q", "--set", "output.frames=2").returncode, 0)
         made = [("report", "out", "--out", "a.HTML"), ("plot", "out", "rod.angle", "--out", "a.Svg")]
