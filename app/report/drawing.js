@@ -205,29 +205,42 @@ function traceLoop(context, loop, at) {
 }
 
 /// A triangle whose corners are so many pixels further from its middle.
-function traceTriangle(context, triangles, k, at, more) {
-  const a = 2 * triangles[k], b = 2 * triangles[k + 1], c = 2 * triangles[k + 2];
-  const x = (at[a] + at[b] + at[c]) / 3, y = (at[a + 1] + at[b + 1] + at[c + 1]) / 3;
-  const away = (p) => 1 + more / (Math.sqrt((at[p] - x) ** 2 + (at[p + 1] - y) ** 2) || 1);
-  const fa = away(a), fb = away(b), fc = away(c);
-  context.moveTo(x + fa * (at[a] - x), y + fa * (at[a + 1] - y));
-  context.lineTo(x + fb * (at[b] - x), y + fb * (at[b + 1] - y));
-  context.lineTo(x + fc * (at[c] - x), y + fc * (at[c + 1] - y));
+function traceTriangle(context, [xa, ya, xb, yb, xc, yc], more) {
+  const x = (xa + xb + xc) / 3, y = (ya + yb + yc) / 3;
+  const corner = (draw, px, py) => {
+    const away = 1 + more / (Math.hypot(px - x, py - y) || 1);
+    context[draw](x + away * (px - x), y + away * (py - y));
+  };
+  corner("moveTo", xa, ya), corner("lineTo", xb, yb), corner("lineTo", xc, yc);
 }
 
-/// Triangles of one colour are filled together, each a little larger, so that there are no gaps between neighbours.
+/// Triangles of one colour are filled together, each a little larger, so that there are no gaps between neighbours. A triangle over which the
+/// colour changes much is divided into four, unless there are very many.
 function fillByStress(stage, {triangles, mises}, at) {
   const {context} = stage;
   const groups = Array.from({length: scaleSteps}, () => []);
-  const steps = stage.greatestStress > 0 ? (scaleSteps - 1) / (3 * stage.greatestStress) : 0;
+  const steps = stage.greatestStress > 0 ? (scaleSteps - 1) / stage.greatestStress : 0;
+  const add = (p, [a, b, c], times) => {
+    if (times === 0 || Math.max(a, b, c) - Math.min(a, b, c) < 3)
+      return groups[Math.min(Math.round((a + b + c) / 3), scaleSteps - 1)].push(p);
+    const [xa, ya, xb, yb, xc, yc] = p;
+    const [xd, yd, xe, ye, xf, yf] = [(xb + xc) / 2, (yb + yc) / 2, (xc + xa) / 2, (yc + ya) / 2, (xa + xb) / 2, (ya + yb) / 2];
+    const [d, e, f] = [(b + c) / 2, (c + a) / 2, (a + b) / 2];
+    add([xa, ya, xf, yf, xe, ye], [a, f, e], times - 1);
+    add([xb, yb, xd, yd, xf, yf], [b, d, f], times - 1);
+    add([xc, yc, xe, ye, xd, yd], [c, e, d], times - 1);
+    add([xd, yd, xe, ye, xf, yf], [d, e, f], times - 1);
+  };
+  const times = triangles.length < 10_000 ? 4 : 0;
   for (let k = 0; k < triangles.length; k += 3) {
-    const sum = mises[triangles[k]] + mises[triangles[k + 1]] + mises[triangles[k + 2]];
-    groups[Math.min(Math.round(steps * sum), scaleSteps - 1)].push(k);
+    const [a, b, c] = [triangles[k], triangles[k + 1], triangles[k + 2]];
+    add([at[2 * a], at[2 * a + 1], at[2 * b], at[2 * b + 1], at[2 * c], at[2 * c + 1]],
+        [steps * mises[a], steps * mises[b], steps * mises[c]], times);
   }
   groups.forEach((members, step) => {
     if (members.length === 0) return;
     context.beginPath();
-    for (const k of members) traceTriangle(context, triangles, k, at, 0.7);
+    for (const p of members) traceTriangle(context, p, 0.7);
     fill(stage, scaleColours[step], 1);
   });
 }

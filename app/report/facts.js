@@ -33,7 +33,7 @@ function tableOf(objects) {
 }
 
 function showFacts(run) {
-  const elsewhere = new Set(["title", "warnings", "scene text"]);
+  const elsewhere = new Set(["title", "warnings", "notes", "scene text"]);
   for (const [name, value] of Object.entries(run)) {
     if (elsewhere.has(name) || isScalar(value) || Object.keys(value).length === 0) continue;
     byId("facts").append(element("section", {className: "card"}, element("h3", {textContent: name}), factsOf(value)));
@@ -49,14 +49,17 @@ function showHead(title, run) {
   const took = run["timings [s]"]?.integration ?? run["timings [s]"]?.computing;
   const words = [];
   if (run.status) words.push(run.status + (run.reason ? `: ${run.reason}` : ""));
+  if (run.found === false) words.push(`not at rest: ${run.reason}`);
+  if (run.stability?.["unstable directions"] > 0) words.push(`unstable in ${run.stability["unstable directions"]} of its directions`);
   if (run["reached [s]"] !== undefined) words.push(`to ${engineering(run["reached [s]"], "s", 6)}`);
   if (run.method?.name) words.push(`by ${run.method.name}`);
   if (run.counts?.steps) words.push(`${run.counts.steps} steps`);
   if (took !== undefined) words.push(`computed in ${engineering(took, "s", 3)}`);
   if (run.program) words.push(`${run.program} ${run.version}`);
   byId("summary").textContent = words.join(" · ");
-  byId("summary").classList.toggle("trouble", (run.status ?? "finished") !== "finished");
-  const warnings = run.warnings ?? [];
+  const unstable = run.found === false || run.stability?.["unstable directions"] > 0;
+  byId("summary").classList.toggle("trouble", unstable || (run.status ?? "finished") !== "finished");
+  const warnings = [...(run.warnings ?? []), ...(run.notes ?? [])];
   byId("warnings").hidden = warnings.length === 0;
   byId("warnings").append(...warnings.map((text) => element("li", {textContent: text})));
 }

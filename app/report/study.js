@@ -15,7 +15,7 @@ class StudyPage {
     this.columns = table.columns.map((column, index) => ({...column, index, numeric: this.isNumeric(index)}));
     this.varying = this.columns.filter((column) => new Set(this.rows.map((row) => row[column.index])).size > 1);
     this.brushes = new Map();
-    this.sorted = {index: 0, ascending: true};
+    this.sorted = {index: -1, ascending: true};  // as in the file
     const numeric = this.varying.filter((column) => column.numeric && column.name !== "case");
     const named = (name, otherwise) => this.columns.find((column) => column.name === name) ?? otherwise ?? this.columns[0];
     this.x = named(table.x, numeric[0]);
@@ -128,10 +128,10 @@ class StudyPage {
 
   fillTable(marked) {
     const scales = this.columns.map(
-        (column) => (column.numeric ? scaleFor(rangeOf(this.rows.map((row) => Math.abs(row[column.index] ?? 0)))[1], column.unit) : null));
+        ({index, numeric, unit}) => (numeric ? scaleFor(unit ? rangeOf(this.rows.map((row) => Math.abs(row[index] ?? 0)))[1] : 1, unit) : null));
     const {index, ascending} = this.sorted;
     const order = (a, b) => (a === b ? 0 : a === null ? 1 : b === null ? -1 : a < b === ascending ? -1 : 1);
-    const rows = marked.filter((one) => !one.out).sort((a, b) => order(a.row[index], b.row[index]));
+    const rows = marked.filter((one) => !one.out).sort((a, b) => (index < 0 ? a.number - b.number : order(a.row[index], b.row[index])));
     const heading = this.columns.map((column, c) => {
       const unit = scales[c]?.unit ?? "";
       const button = element("button", {

@@ -29,6 +29,7 @@ commands = {
     "rest": ["statics", "double_wishbone.yaml"],
     "shapes": ["modes", "modes_beam.yaml"],
     "loaded": ["static", "static_bracket.yaml"],
+    "upright": ["statics", folder / "upright.yaml"],
 }
 (folder / "empty.html").write_text("<!DOCTYPE html>")
 browser = Chromium(folder / "empty.html")

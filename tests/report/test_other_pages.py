@@ -9,7 +9,12 @@ import unittest
 
 from driven import Driven, browser, folder, report, table
 
-report("modes", "rest", "shapes", "loaded")
+(folder / "upright.yaml").write_text("""
+gravity: [0, -9.81]
+bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [0, -1]}, pose: {at: [0, 1]}}}
+joints: {hinge: {revolute: [ground, rod.O]}}
+""")
+report("modes", "rest", "shapes", "loaded", "upright")
 
 
 class OtherResults(Driven):
@@ -58,6 +63,20 @@ class OtherResults(Driven):
             self.assertAlmostEqual(browser.get(f"page.stage.greatest{mine}") / value, 1, places=5)
         self.assertGreater(browser.get("page.stage.deformation"), 1)
         self.assertEqual(browser.get("byId('colour-most').textContent"), "33.2 MPa")
+
+    def test_colours_change_within_a_triangle(self):
+        self.open("loaded")
+        light = browser.get("""(() => {
+            const context = Object.assign(document.createElement("canvas"), {width: 100, height: 100}).getContext("2d", {willReadFrequently: true});
+            fillByStress({context, greatestStress: 1}, {triangles: [0, 1, 2], mises: [0, 0, 1]}, [0, 0, 100, 0, 0, 100]);
+            return [[30, 3], [3, 50], [3, 90]].map(([x, y]) => context.getImageData(x, y, 1, 1).data.slice(0, 3).reduce((a, b) => a + b));
+        })()""")
+        self.assertTrue(light[0] + 60 < light[1] < light[2] - 60, light)
+
+    def test_what_does_not_rest_stably_says_so_at_the_top(self):
+        self.open("upright")
+        self.assertEqual(browser.get("byId('summary').textContent.split(' · ')[0]"), "unstable in 1 of its directions")
+        self.assertTrue(browser.get("byId('summary').classList.contains('trouble')"))
 
 
 if __name__ == "__main__":
