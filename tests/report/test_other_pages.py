@@ -75,7 +75,7 @@ class OtherResults(Driven):
 
     def test_what_does_not_rest_stably_says_so_at_the_top(self):
         self.open("upright")
-        self.assertEqual(browser.get("byId('summary').textContent.split(' · ')[0]"), "unstable in 1 of its directions")
+        self.assertEqual(browser.get("byId('summary').textContent.split(' · ')[0]"), "unstable in 1 direction")
         self.assertTrue(browser.get("byId('summary').classList.contains('trouble')"))
 
 
