@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <utility>
 
 #include "app/options.h"
@@ -11,6 +12,7 @@
 #include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/plots/plot.h"
+#include "framework/study/nonlinear/attractors.h"
 
 namespace pintle::app {
 
@@ -28,13 +30,39 @@ void add_periods(const Nonlinear& study, const std::vector<FollowedValue>& value
       return v.period == values[k].period && v.status == values[k].status && v.backwards == values[k].backwards;
     };
     while (end < values.size() && same(values[end])) ++end;
-    std::string where = study.varies() ? values[k].parameter : counted(values[k].orbit.t.size(), "return");
-    if (end - k > 1) where += " to " + values[end - 1].parameter + " (" + std::to_string(end - k) + " values)";
+    std::string where = study.varies() ? values[k].parameters[0] : counted(values[k].orbit.t.size(), "return");
+    if (end - k > 1) where += " to " + values[end - 1].parameters[0] + " (" + std::to_string(end - k) + " values)";
     if (study.order == Order::both) where += values[k].backwards ? ", backwards" : ", forwards";
     const bool finished = values[k].status == "finished";
     rows.emplace_back(finished ? words_of_period(values[k].period) : values[k].status, finished ? where : where + ": " + values[k].reason);
     k = end;
   }
+}
+
+/// One row for each of the largest basins, and for each status of starts that end on no attractor.
+void add_basins(const Nonlinear& study, const std::vector<FollowedValue>& values, Rows& rows) {
+  constexpr std::size_t most_shown = 12;
+  std::string names;
+  for (const std::string& one : parameter_headers(study)) names += (names.empty() ? "" : ", ") + one;
+  rows.emplace_back("starts", std::to_string(values.size()) + " of " + names);
+  const auto percent = [](double share) { return number(100 * share, 4); };
+  const std::vector<Basin> all = basins(values);
+  for (std::size_t k = 0; k < std::min(all.size(), most_shown); ++k) {
+    const Basin& basin = all[k];
+    std::string text = percent(basin.share) + " %";
+    if (study.basins->random) {
+      const ShareBounds bounds = share_bounds(basin.starts, values.size());
+      text += " (95 %: " + percent(bounds.least) + " to " + percent(bounds.most) + ")";
+    }
+    rows.emplace_back("attractor " + std::to_string(k + 1),
+                      text + ", " + words_of_period(values[basin.first].period) + ", e.g. from " + place_words(study, values[basin.first]));
+  }
+  if (all.size() > most_shown) rows.emplace_back("", "and " + std::to_string(all.size() - most_shown) + " more: attractors.csv");
+  std::map<std::string, std::size_t> others;
+  for (const FollowedValue& value : values)
+    if (value.attractor == 0) ++others[value.status];
+  for (const auto& [status, n] : others)
+    rows.emplace_back(status, percent(static_cast<double>(n) / static_cast<double>(values.size())) + " %");
 }
 
 /// The exponents of the only value, and their sum.
@@ -93,15 +121,18 @@ void add_branch(const std::vector<FollowedValue>& values, Rows& rows) {
       rows.emplace_back(stability_word(one) + " orbits", "at " + counted(static_cast<std::size_t>(n), "value"));
   }
   for (const LossOfStability& loss : losses_of_stability(values))
-    rows.emplace_back(crossing_words(loss.through),
-                      "near " + number(loss.x) + ", between " + values[loss.before].parameter + " and " + values[loss.after].parameter);
+    rows.emplace_back(crossing_words(loss.through), "near " + number(loss.x) + ", between " + values[loss.before].parameters[0] + " and " +
+                                                        values[loss.after].parameters[0]);
 }
 
 void print(const Nonlinear& study, const SweepEnd& end, const std::vector<FollowedValue>& values, const fs::path& out) {
   std::cout << (study.sweep.study.title.empty() ? study.sweep.study.file : study.sweep.study.title) << "\n";
   Rows rows;
-  if (study.varies()) rows.emplace_back("values of", parameter_header(study));
-  if (study.question.section) add_periods(study, values, rows);
+  if (study.basins)
+    add_basins(study, values, rows);
+  else if (study.varies())
+    rows.emplace_back("values of", parameter_headers(study)[0]);
+  if (study.question.section && !study.basins) add_periods(study, values, rows);
   if (!study.varies() && !values.empty()) {
     if (const double k = values[0].orbit.zero_one; !std::isnan(k)) rows.emplace_back("0-1 test", "K = " + number(k, 3));
     if (const double d = values[0].orbit.dimension; !std::isnan(d))
@@ -163,30 +194,70 @@ Panel map_of_returns(const FollowedValue& value, const std::vector<std::string>&
   return panel;
 }
 
+/// A curve of points for each of the largest basins, at the positions that `at` gives of a value.
+template <class F>
+Panel of_basins(const std::vector<FollowedValue>& values, Panel panel, const F& add) {
+  constexpr std::size_t most_shown = 8;
+  const std::size_t count = std::min(basins(values).size(), most_shown);
+  for (std::size_t k = 1; k <= count + 1; ++k) {
+    Curve curve = dots(k <= count ? "attractor " + std::to_string(k) : "others");
+    for (const FollowedValue& value : values)
+      if (k <= count ? value.attractor == k : value.attractor == 0 || value.attractor > count) add(value, curve);
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+/// The starts in the plane of the first two names, or the returns over the only name; then the returns, the second signal over the first.
+std::vector<Panel> pictures_of_basins(const Nonlinear& study, const std::vector<FollowedValue>& values,
+                                      const std::vector<std::string>& headers) {
+  const std::vector<std::string> names = parameter_headers(study);
+  const bool plane = names.size() > 1, map = headers.size() > 1;
+  const double radius = std::clamp(130 / std::sqrt(static_cast<double>(values.size())), 1.0, 5.0);  // dots of a grid nearly touch
+  std::vector<Panel> out{of_basins(values, {.title = "", .x_label = names[0], .y_label = plane ? names[1] : headers[0], .curves = {}},
+                                   [&](const FollowedValue& value, Curve& curve) {
+                                     if (plane) curve.x.push_back(value.at[0]), curve.y.push_back(value.at[1]), curve.radius = radius;
+                                     for (std::size_t k = 0; k < value.orbit.signals.size() && !plane; ++k)
+                                       curve.x.push_back(value.at[0]), curve.y.push_back(value.orbit.signals[k][0]);
+                                   })};
+  const std::vector<Basin> all = basins(values);
+  out.push_back(of_basins(values, {.title = "", .x_label = map ? headers[0] : "return", .y_label = headers[map ? 1 : 0], .curves = {}},
+                          [&](const FollowedValue& value, Curve& curve) {
+                            if (value.attractor == 0 || &value != &values[all[value.attractor - 1].first]) return;
+                            for (std::size_t k = 0; k < value.orbit.signals.size(); ++k) {
+                              const std::vector<double>& one = value.orbit.signals[k];
+                              curve.x.push_back(map ? one[0] : static_cast<double>(k + 1)), curve.y.push_back(one[map ? 1 : 0]);
+                            }
+                          }));
+  return out;
+}
+
 /// A signal of all returns over the parameter, each direction in a colour.
 Panel diagram(const Nonlinear& study, const std::vector<FollowedValue>& values, const std::string& header, std::size_t signal) {
-  Panel panel{.title = "", .x_label = parameter_header(study), .y_label = header, .curves = {}};
+  Panel panel{.title = "", .x_label = parameter_headers(study)[0], .y_label = header, .curves = {}};
   for (const bool backwards : {false, true}) {
     Curve curve = dots(study.order != Order::both ? "" : backwards ? "backwards" : "forwards");
     for (const FollowedValue& value : values)
       if (value.backwards == backwards)
-        for (const std::vector<double>& one : value.orbit.signals) curve.x.push_back(value.x), curve.y.push_back(one[signal]);
+        for (const std::vector<double>& one : value.orbit.signals) curve.x.push_back(value.at[0]), curve.y.push_back(one[signal]);
     if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
   }
   add_orbits(
-      values, [signal](const FollowedValue& value, std::size_t, const std::vector<double>& one) { return std::pair(value.x, one[signal]); },
+      values,
+      [signal](const FollowedValue& value, std::size_t, const std::vector<double>& one) { return std::pair(value.at[0], one[signal]); },
       panel);
   return panel;
 }
 
 Panel exponents_over(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   Panel panel{
-      .title = "", .x_label = study.varies() ? parameter_header(study) : "t [s]", .y_label = "Lyapunov exponents [1/s]", .curves = {}};
+      .title = "", .x_label = study.varies() ? parameter_headers(study)[0] : "t [s]", .y_label = "Lyapunov exponents [1/s]", .curves = {}};
   for (std::size_t j = 0; j < static_cast<std::size_t>(study.question.lyapunov->exponents); ++j) {
     Curve curve = dots("exponent " + std::to_string(j + 1));
     curve.points = study.varies();
     for (const FollowedValue& value : values) {
-      if (study.varies() && j < value.orbit.exponents.size()) curve.x.push_back(value.x), curve.y.push_back(value.orbit.exponents[j].value);
+      if (study.varies() && j < value.orbit.exponents.size())
+        curve.x.push_back(value.at[0]), curve.y.push_back(value.orbit.exponents[j].value);
       if (study.varies()) continue;
       for (std::size_t k = 0; k < value.orbit.running.size(); ++k)
         curve.x.push_back(value.orbit.running_t[k]), curve.y.push_back(value.orbit.running[k][j]);
@@ -198,7 +269,9 @@ Panel exponents_over(const Nonlinear& study, const std::vector<FollowedValue>& v
 
 std::string picture_of(const Nonlinear& study, const std::vector<FollowedValue>& values, const std::vector<std::string>& headers) {
   std::vector<Panel> panels;
-  for (std::size_t i = 0; i < headers.size() && study.varies(); ++i) panels.push_back(diagram(study, values, headers[i], i));
+  if (study.basins) panels = pictures_of_basins(study, values, headers);
+  for (std::size_t i = 0; i < headers.size() && study.varies() && !study.basins; ++i)
+    panels.push_back(diagram(study, values, headers[i], i));
   if (!headers.empty() && !study.varies()) panels.push_back(map_of_returns(values[0], headers));
   if (study.question.lyapunov) panels.push_back(exponents_over(study, values));
   return svg(panels, 1);
@@ -219,9 +292,7 @@ void warn_of_doubts(const Nonlinear& study, const std::vector<FollowedValue>& va
   if (n == 0) return;
   const FollowedValue& first = *std::ranges::find_if(values, doubted);
   std::cerr << study.sweep.study.file << ": warning: ";
-  if (values.size() > 1)
-    std::cerr << "at " << n << " of " << values.size() << " values, the first " << parameter_header(study) << " = " << first.parameter
-              << ": ";
+  if (values.size() > 1) std::cerr << "at " << n << " of " << values.size() << " values, the first " << place_words(study, first) << ": ";
   std::cerr << first.reason << "\n";
 }
 
@@ -232,7 +303,7 @@ int exit_after(const Nonlinear& study, const std::vector<FollowedValue>& values)
   if (n == 0) return ok;
   const bool none = n == std::ssize(values);
   const FollowedValue& first = *std::ranges::find_if(values, lacks);
-  const std::string where = study.varies() ? parameter_header(study) + " = " + first.parameter + ": " : "";
+  const std::string where = study.varies() ? place_words(study, first) + ": " : "";
   std::cerr << study.sweep.study.file << ": " << (none ? "" : "warning: ");
   if (values.size() == 1)
     std::cerr << "the motion could not be followed to the end: ";

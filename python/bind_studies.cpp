@@ -104,11 +104,11 @@ py::tuple sensitivity(const std::string& study, const std::string& called, const
   return py::make_tuple(csv, json, cases, warning);
 }
 
-/// (values.csv, the output of `pintle nonlinear --json`, section.csv, orbits.csv, lyapunov.csv), None for tables not requested
+/// (values.csv, the output of `pintle nonlinear --json`, section.csv, orbits.csv, attractors.csv, lyapunov.csv), None for tables not requested
 py::tuple nonlinear(const std::string& study, const std::string& called, const std::string& folder, const Overrides& set, int threads) {
   Watch watch;
   std::string values, json;
-  std::optional<std::string> section, orbits, exponents;
+  std::optional<std::string> section, orbits, attractors, exponents;
   {
     const py::gil_scoped_release free;
     Nonlinear what = read_nonlinear(study, set);
@@ -121,11 +121,12 @@ py::tuple nonlinear(const std::string& study, const std::string& called, const s
       values = values_csv(what, end.rows), json = nonlinear_json(what, end.rows);
       if (what.question.section) section = section_csv(what, end.rows);
       if (what.question.cycle) orbits = orbits_csv(what, end.rows);
+      if (what.basins) attractors = attractors_csv(what, end.rows);
       if (what.question.lyapunov) exponents = lyapunov_csv(what, end.rows);
     }
   }
   watch.raise();
-  return py::make_tuple(values, json, section, orbits, exponents);
+  return py::make_tuple(values, json, section, orbits, attractors, exponents);
 }
 
 /// (tradeoff.csv, tradeoff.json, the report as text, the scene's file, overrides of the recommended setting or None)

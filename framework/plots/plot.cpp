@@ -181,7 +181,7 @@ PlotPen::Points thinned(const std::vector<double>& x, const std::vector<double>&
 void curve(PlotPen& pen, const Panel& p, const Axes& axes, std::size_t k) {
   const Curve& c = p.curves[k];
   std::vector<double> x, y;
-  const double radius = c.x.size() > 400 ? 1 : 2.5;  // smaller if there are many, so that they do not merge
+  const double radius = c.radius > 0 ? c.radius : c.x.size() > 400 ? 1 : 2.5;  // smaller if there are many, so that they do not merge
   const auto draw_part = [&] {
     const bool dots = p.log || c.points || x.size() == 1;
     if (x.size() > 1 && !c.points) pen.curve(thinned(x, y), colour_of(k), c.dashed);

@@ -15,6 +15,7 @@ struct Curve {
   bool dashed = false;
   bool points = false;  ///< only points, without a line through them
   bool hollow = false;  ///< these as rings
+  double radius = 0;    ///< of these [px]; 0: smaller if there are many
 };
 
 /// A point with a ring around it and a label.

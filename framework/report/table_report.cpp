@@ -31,17 +31,20 @@ struct TableKind {
   std::vector<TableFile> tables;
 };
 const std::vector<TableKind>& kinds() {
-  static const std::vector<TableKind> all{
-      {"sensitivity", {{"sensitivity.csv", "parameter", "of the tolerance", "measure"}, {"sweep.csv"}}},
-      {"fit", {{"fit.csv", "case", "goal", "phase"}, {"path.csv"}}},
-      {"nonlinear",
-       {{"section.csv", "", "", "direction"}, {"values.csv", "", "period"}, {"orbits.csv", "", "", "stability"}, {"lyapunov.csv", "t"}}},
-      {"sweep", {{"sweep.csv"}}},
-      {"tradeoff", {{"tradeoff.csv", "time", "error", "", true}}},
-      {"linearized", {{"linearized.csv", "frequency", "damping ratio", "kind"}}},
-      {"statics", {{"statics.csv"}}},
-      {"static", {{"points.csv", "x", "y"}, {"section_forces.csv"}, {"contacts.csv"}}},
-      {"modes", {{"modes.csv", "mode", "frequency"}, {"reduced.csv", "mode", "frequency"}}}};
+  static const std::vector<TableKind> all{{"sensitivity", {{"sensitivity.csv", "parameter", "of the tolerance", "measure"}, {"sweep.csv"}}},
+                                          {"fit", {{"fit.csv", "case", "goal", "phase"}, {"path.csv"}}},
+                                          {"nonlinear",
+                                           {{"section.csv", "", "", "direction"},
+                                            {"values.csv", "", "period"},
+                                            {"orbits.csv", "", "", "stability"},
+                                            {"attractors.csv", "attractor", "share"},
+                                            {"lyapunov.csv", "t"}}},
+                                          {"sweep", {{"sweep.csv"}}},
+                                          {"tradeoff", {{"tradeoff.csv", "time", "error", "", true}}},
+                                          {"linearized", {{"linearized.csv", "frequency", "damping ratio", "kind"}}},
+                                          {"statics", {{"statics.csv"}}},
+                                          {"static", {{"points.csv", "x", "y"}, {"section_forces.csv"}, {"contacts.csv"}}},
+                                          {"modes", {{"modes.csv", "mode", "frequency"}, {"reduced.csv", "mode", "frequency"}}}};
   return all;
 }
 
@@ -81,6 +84,11 @@ std::vector<std::string> names_in(const TableJson& json, const char* key) {
   return out;
 }
 
+/// Of a study of basins: its plane of starts is what is seen first.
+bool shows_starts(const TableFile& table, const TableJson& description) {
+  return description.contains("attractors") && table.file == std::string_view("values.csv");
+}
+
 TableJson table_of(const TableFile& kind, const TableJson& description, const fs::path& file, std::size_t most_rows) {
   CsvReader reader(file);
   std::vector<TableJson> rows;
@@ -95,19 +103,21 @@ TableJson table_of(const TableFile& kind, const TableJson& description, const fs
   }
   for (const std::size_t r : kept(rows, reader.header().size(), most_rows)) shown.push_back(std::move(rows[r]));
   std::vector<std::string> first = names_in(description, "varied");
-  if (first.size() > 1) first.resize(1);
+  const bool starts = shows_starts(kind, description);
+  std::string colour = starts ? "attractor" : kind.logarithmic ? columns[1]["name"].get<std::string>() : kind.colour;
+  if (first.size() > 1 && !starts) first.resize(1);
   for (const char* key : {"measures", "recorded"})
     for (const std::string& name : names_in(description, key)) first.push_back(name);
   first.resize(2);
   if (*kind.x) first[0] = kind.x;
-  if (*kind.y) first[1] = kind.y;
+  if (*kind.y && !(starts && !first[1].empty())) first[1] = kind.y;
   return {{"file", file.filename().string()},
           {"columns", columns},
           {"rows", shown},
           {"all", rows.size()},
           {"x", first[0]},
           {"y", first[1]},
-          {"colour", kind.logarithmic ? columns[1]["name"].get<std::string>() : kind.colour},
+          {"colour", colour},
           {"logarithmic", kind.logarithmic}};
 }
 
@@ -123,7 +133,9 @@ TableJson tables_json(const Description& results, std::size_t most_rows) {
   for (const TableKind& kind : kinds())
     if (kind.name == results.question)
       for (const TableFile& table : kind.tables)
-        if (fs::exists(directory / table.file)) out.push_back(table_of(table, results.json, directory / table.file, most_rows));
+        if (fs::exists(directory / table.file))
+          out.insert(shows_starts(table, results.json) ? out.begin() : out.end(),
+                     table_of(table, results.json, directory / table.file, most_rows));
   if (out.empty()) throw ResultsError(results.file.string() + ": its tables are missing from the folder; run it again");
   return out;
 }

@@ -266,6 +266,7 @@ class NonlinearResult(TextTable):
     info: dict[str, Any]
     section: TextTable | None
     orbits: TextTable | None
+    attractors: TextTable | None
     lyapunov: TextTable | None
 
 class TradeoffResult(TextTable):

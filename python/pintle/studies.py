@@ -80,13 +80,14 @@ class SensitivityResult(TextTable):
 
 
 class NonlinearResult(TextTable):
-    """A row for each value of the parameter. Tables of the returns, of periodic orbits and of Lyapunov exponents, None where the study
-    does not ask for them."""
+    """A row for each value of the parameter, or each start. Tables of the returns, of periodic orbits, of attractors and of Lyapunov
+    exponents, None where the study does not ask for them."""
 
-    def __init__(self, text, info, section, orbits, lyapunov):
+    def __init__(self, text, info, section, orbits, attractors, lyapunov):
         super().__init__(text)
         self.info = json.loads(info)
-        self.section, self.orbits, self.lyapunov = (None if t is None else TextTable(t) for t in (section, orbits, lyapunov))
+        tables = (None if t is None else TextTable(t) for t in (section, orbits, attractors, lyapunov))
+        self.section, self.orbits, self.attractors, self.lyapunov = tables
 
 
 class TradeoffResult(TextTable):
@@ -128,7 +129,7 @@ def sensitivity(study, out=None, set=None, threads=None):
 
 
 def nonlinear(study, out=None, set=None, threads=None):
-    """Finds Poincaré sections, periodic orbits and Lyapunov exponents, as a study, a file or a dict, asks for them. `out` as of `sweep`."""
+    """Finds Poincaré sections, periodic orbits, basins of attraction and Lyapunov exponents, as a study, a file or a dict, asks for them. `out` as of `sweep`."""
     with _files(study, out) as (file, name, folder):
         return NonlinearResult(*_core.nonlinear(file, name, folder, overrides(set), _threads(threads)))
 

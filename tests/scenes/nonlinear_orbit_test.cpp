@@ -40,17 +40,17 @@ TEST(PeriodicOrbits, OfABouncingBallHaveTheMultipliersOfTheClosedFormBeyondTheDo
       follow_study(folder, table.scene(1.2, 1.0), once_a_period(20, 3) + "over: {gamma: {from: 1.2, to: 1.8, count: 13}}\norbit: {}\n");
   ASSERT_EQ(done.values.size(), 13u);
   for (const FollowedValue& value : done.values) {
-    SCOPED_TRACE(value.parameter);
+    SCOPED_TRACE(value.parameters.at(0));
     const Cycle& cycle = value.orbit.cycle;
-    expect_multipliers(cycle, roots(table.sum(value.x), table.e * table.e), 1e-4);
-    EXPECT_EQ(stability(cycle), value.x < table.doubling() ? OrbitStability::stable : OrbitStability::unstable);
-    EXPECT_EQ(cycle.continued, value.x > 1.2);
+    expect_multipliers(cycle, roots(table.sum(value.at.at(0)), table.e * table.e), 1e-4);
+    EXPECT_EQ(stability(cycle), value.at.at(0) < table.doubling() ? OrbitStability::stable : OrbitStability::unstable);
+    EXPECT_EQ(cycle.continued, value.at.at(0) > 1.2);
     EXPECT_NEAR(cycle.period, 2 * pi / table.omega, 1e-12);
     // Half a flight after the impact the ball is at rest, by g/8 of the period squared above the table at impacts.
-    const double amplitude = value.x * table.g / (table.omega * table.omega), flight = 2 * pi / table.omega;
-    const double apex = 0.01 + amplitude * std::sin(table.phase(value.x)) + table.g * flight * flight / 8;
+    const double amplitude = value.at.at(0) * table.g / (table.omega * table.omega), flight = 2 * pi / table.omega;
+    const double apex = 0.01 + amplitude * std::sin(table.phase(value.at.at(0))) + table.g * flight * flight / 8;
     // The phase of the table in the scene is that of gamma = 1.2: the section is by so much off the apex.
-    const double off = (table.phase(1.2) - table.phase(value.x)) / table.omega;
+    const double off = (table.phase(1.2) - table.phase(value.at.at(0))) / table.omega;
     ASSERT_EQ(cycle.signals.size(), 1u);
     EXPECT_NEAR(cycle.signals[0][1], -table.g * off, 1e-6);
     EXPECT_NEAR(cycle.signals[0][0], apex - table.g * off * off / 2, 1e-7);
@@ -117,10 +117,10 @@ TEST(PeriodicOrbits, OfAnImpactOscillatorHaveTheMultipliersOfItsSaltationMatrix)
                                      "section: {every: 2*pi/omega, record: [block.x, block.vx], transient: 30, returns: 3}\n"
                                      "over: {omega: [2, 2.1]}\norbit: {}\n");
   for (const FollowedValue& value : done.values) {
-    SCOPED_TRACE(value.parameter);
+    SCOPED_TRACE(value.parameters.at(0));
     EXPECT_EQ(value.orbit.impacts.count, 3);
-    expect_multipliers(value.orbit.cycle, Stopped{.omega = value.x}.multipliers(), 1e-4);
-    const double T = 2 * pi / value.x;
+    expect_multipliers(value.orbit.cycle, Stopped{.omega = value.at.at(0)}.multipliers(), 1e-4);
+    const double T = 2 * pi / value.at.at(0);
     EXPECT_NEAR(value.orbit.cycle.modulus(0) * value.orbit.cycle.modulus(1), 0.36 * std::exp(-0.1 * T), 1e-4);
   }
 }
@@ -172,11 +172,11 @@ TEST(PeriodicOrbits, OfDuffingCloseAndHaveTheMultipliersOfTheirVariationalEquati
                                      "over: {gamma: {from: 0.2, to: 0.3, count: 6}}\norbit: {}\n");
   const double T = 2 * pi / 1.2;
   for (const FollowedValue& value : done.values) {
-    SCOPED_TRACE(value.parameter);
+    SCOPED_TRACE(value.parameters.at(0));
     const Cycle& cycle = value.orbit.cycle;
     ASSERT_EQ(cycle.signals.size(), 1u);
     const double x = cycle.signals[0][0], v = cycle.signals[0][1];
-    const DuffingPeriod by_hand(value.x, x, v);
+    const DuffingPeriod by_hand(value.at.at(0), x, v);
     EXPECT_NEAR(by_hand.end[0], x, 1e-6);
     EXPECT_NEAR(by_hand.end[1], v, 1e-6);
     expect_multipliers(cycle, roots(by_hand.end[2] + by_hand.end[5], std::exp(-0.3 * T)), 1e-4);
@@ -199,9 +199,9 @@ TEST(PeriodicOrbits, OfALimitCycleAreFixedPointsOfASectionByACondition) {
   for (const FollowedValue& value : done.values) {
     const Cycle& cycle = value.orbit.cycle;
     EXPECT_NEAR(cycle.period, pi, 1e-7);
-    EXPECT_NEAR(cycle.signals.at(0).at(0), std::sqrt(value.x), 1e-7);
+    EXPECT_NEAR(cycle.signals.at(0).at(0), std::sqrt(value.at.at(0)), 1e-7);
     ASSERT_EQ(cycle.re.size(), 1u);
-    EXPECT_NEAR(cycle.re[0], std::exp(-2 * value.x * pi), 1e-4);
+    EXPECT_NEAR(cycle.re[0], std::exp(-2 * value.at.at(0) * pi), 1e-4);
     EXPECT_EQ(cycle.im[0], 0);
   }
 }
@@ -216,7 +216,7 @@ struct Linear {
 TEST(PeriodicOrbits, LoseTheirStabilityByRealMultipliersThatWereAPair) {
   const auto at = [](double x, std::vector<double> re, std::vector<double> im) {
     FollowedValue value;
-    value.x = x;
+    value.at = {x};
     value.orbit.cycle.point = {0}, value.orbit.cycle.re = std::move(re), value.orbit.cycle.im = std::move(im);
     value.orbit.cycle.continued = 1;
     return value;
@@ -243,7 +243,7 @@ TEST(PeriodicOrbits, TellThroughWhatTheirMultipliersLeave) {
                                        "section: {every: 2*pi/(3 rad/s), record: X, transient: 2, returns: 2}\n"
                                        "over: {a: [-0.02, -0.01, 0.01, 0.02]}\norbit: {}\n");
     for (const FollowedValue& value : done.values)
-      EXPECT_NEAR(value.orbit.cycle.modulus(0), std::exp(value.x * 2 * pi / 3), 1e-5) << value.parameter;
+      EXPECT_NEAR(value.orbit.cycle.modulus(0), std::exp(value.at.at(0) * 2 * pi / 3), 1e-5) << value.parameters.at(0);
     const std::vector<LossOfStability> losses = losses_of_stability(done.values);
     ASSERT_EQ(losses.size(), 1u);
     EXPECT_EQ(losses[0].through, one.through);

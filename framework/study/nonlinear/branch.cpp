@@ -64,7 +64,7 @@ std::vector<LossOfStability> losses_of_stability(const std::vector<FollowedValue
     if (!from.found() || to.continued == 0 || outside(from) == outside(to)) continue;
     const Crossing through = crossing(from, to);
     const double off = nearest(from, through), on = nearest(to, through);
-    out.push_back({through, order[i - 1], order[i], off == on ? b.x : a.x + (b.x - a.x) * off / (off - on)});
+    out.push_back({through, order[i - 1], order[i], off == on ? b.at[0] : a.at[0] + (b.at[0] - a.at[0]) * off / (off - on)});
   }
   return out;
 }

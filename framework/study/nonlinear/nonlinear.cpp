@@ -31,7 +31,8 @@ double seconds_since(wall_clock::time_point begin) { return std::chrono::duratio
 class ChainWorkers {
  public:
   ChainWorkers(const Nonlinear& study, Journal& journal, std::vector<Row> ended)
-      : study_(study), journal_(journal), chains_(study.chains()), parameters_(parameter_numbers(study)) {
+      : study_(study), journal_(journal), chains_(study.chains()) {
+    for (const std::vector<double>& at : parameter_numbers(study)) x_.push_back(at.empty() ? 0 : at[0]);
     for (Row& row : ended)
       if (!lacked_memory(row)) ended_.emplace(row.number, std::move(row));
     std::vector<std::size_t> all(chains_.size());
@@ -155,7 +156,7 @@ class ChainWorkers {
     try {
       const std::size_t k = study_.case_of(number);
       const OrbitEnd end =
-          follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(k), study_.question, before, parameters_[k], bodies_, limits);
+          follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(k), study_.question, before, x_[k], bodies_, limits);
       row.status = end.status, row.reason = end.reason, row.values = end.orbit.numbers(), row.units = end.units;
       row.t_end = end.orbit.end_t, row.steps = end.steps, row.impacts = end.impacts;
     } catch (const std::bad_alloc&) {
@@ -168,7 +169,7 @@ class ChainWorkers {
   const Nonlinear& study_;
   Journal& journal_;
   const std::vector<std::vector<std::size_t>> chains_;
-  const std::vector<double> parameters_;
+  std::vector<double> x_;  ///< the parameter of each case
   std::map<std::size_t, Row> ended_;
   TaskQueue queue_;
   BodyStore bodies_;
@@ -186,6 +187,7 @@ class ChainWorkers {
 void write_results(const Nonlinear& study, const fs::path& folder, const std::vector<Row>& rows) {
   if (study.question.section) write_synced(folder / "section.csv", section_csv(study, rows));
   if (study.question.cycle) write_synced(folder / "orbits.csv", orbits_csv(study, rows));
+  if (study.basins) write_synced(folder / "attractors.csv", attractors_csv(study, rows));
   if (study.question.lyapunov) write_synced(folder / "lyapunov.csv", lyapunov_csv(study, rows));
   write_synced(folder / "timings.csv", timings_csv(rows));
   write_synced(folder / "values.csv", values_csv(study, rows));

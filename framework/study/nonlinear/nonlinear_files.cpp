@@ -9,17 +9,18 @@
 #include "framework/common/text.h"
 #include "framework/scene/units/unit.h"
 #include "framework/scene/yaml/json_text.h"
+#include "framework/study/nonlinear/attractors.h"
 #include "framework/study/nonlinear/nonlinear.h"
 
 namespace pintle {
 
 namespace {
 
-/// The unit of the parameter's values if all are numbers of one dimension; otherwise nothing.
-std::optional<std::string> unit_of_parameter(const Nonlinear& study) {
+/// The unit of the values of name i if all are numbers of one dimension; otherwise nothing.
+std::optional<std::string> unit_of_parameter(const Nonlinear& study, std::size_t i) {
   std::optional<std::string> out;
   for (std::size_t k = 0; k < study.sweep.cases.size(); ++k) {
-    const std::optional<Quantity> q = study.sweep.cases.quantity(k, 0);
+    const std::optional<Quantity> q = study.sweep.cases.quantity(k, i);
     if (!q) return {};
     const std::string unit = si_unit(q->dimension);
     if (out && *out != unit) return {};
@@ -32,10 +33,9 @@ std::string with_its_unit(const std::string& name, const std::string& unit) { re
 
 using Headings = std::vector<std::string>;
 
-/// Headings of the first columns: parameter and direction, if any; then others.
+/// Headings of the first columns: what varies and the direction, if any; then others.
 Headings after_values(const Nonlinear& study, const Headings& others) {
-  Headings out;
-  if (study.varies()) out.push_back(parameter_header(study));
+  Headings out = parameter_headers(study);
   if (study.order == Order::both) out.emplace_back("direction");
   out.insert(out.end(), others.begin(), others.end());
   return out;
@@ -66,6 +66,7 @@ std::size_t exponents_of(const Nonlinear& study) {
 
 Headings value_headings(const Nonlinear& study) {
   Headings out = after_values(study, {"status"});
+  if (study.basins) out.emplace_back("attractor");
   if (study.question.section)
     for (const char* own : {"returns", "period", "K", "dimension", "impacts a return", "interval [s]", "least approach [m/s]",
                             "median approach [m/s]", "greatest approach [m/s]", "grazing", "share of time in contact"})
@@ -73,6 +74,17 @@ Headings value_headings(const Nonlinear& study) {
   for (std::size_t j = 1; j <= exponents_of(study); ++j)
     for (const char* own : {"exponent", "standard error"}) out.push_back(numbered(own, j, "1/s"));
   out.emplace_back("reason");
+  return out;
+}
+
+/// Of each signal the least, mean and greatest value; of a random sample the bounds of the share; last a start that ends there.
+Headings attractor_headings(const Nonlinear& study, const std::vector<Row>& rows) {
+  Headings out{"attractor", "starts", "share"};
+  if (study.basins->random) out.insert(out.end(), {"least share", "greatest share"});
+  out.insert(out.end(), {"period", "K", "dimension"});
+  for (const std::string& header : signal_headers(study, rows))
+    for (const char* which : {"least ", "mean ", "greatest "}) out.push_back(which + header);
+  for (const std::string& header : parameter_headers(study)) out.push_back(header);
   return out;
 }
 
@@ -90,23 +102,34 @@ std::string heading_line(const Headings& headings) {
 
 std::string fields_of(const Nonlinear& study, const FollowedValue& value) {
   std::string out;
-  if (study.varies()) out += csv_field(value.parameter) + ",";
+  for (const std::string& one : value.parameters) out += csv_field(one) + ",";
   if (study.order == Order::both) out += value.backwards ? "backwards," : "forwards,";
   return out;
 }
 
 }  // namespace
 
-std::string parameter_header(const Nonlinear& study) {
-  if (!study.varies()) return "";
-  return with_its_unit(study.sweep.cases.names[0], unit_of_parameter(study).value_or(""));
+std::vector<std::string> parameter_headers(const Nonlinear& study) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < study.sweep.cases.names.size(); ++i)
+    out.push_back(with_its_unit(study.sweep.cases.names[i], unit_of_parameter(study, i).value_or("")));
+  return out;
 }
 
-std::vector<double> parameter_numbers(const Nonlinear& study) {
-  const bool numbers = study.varies() && unit_of_parameter(study).has_value();
-  std::vector<double> out;
-  for (std::size_t k = 0; k < study.sweep.cases.size(); ++k)
-    out.push_back(numbers ? study.sweep.cases.quantity(k, 0)->value : static_cast<double>(k + 1));
+std::string place_words(const Nonlinear& study, const FollowedValue& value) {
+  std::string out;
+  const std::vector<std::string> headers = parameter_headers(study);
+  for (std::size_t i = 0; i < headers.size(); ++i) out += (i > 0 ? ", " : "") + headers[i] + " = " + value.parameters[i];
+  return out;
+}
+
+std::vector<std::vector<double>> parameter_numbers(const Nonlinear& study) {
+  const Cases& cases = study.sweep.cases;
+  std::vector<std::vector<double>> out(cases.size());
+  for (std::size_t i = 0; i < cases.names.size(); ++i) {
+    const bool numbers = unit_of_parameter(study, i).has_value();
+    for (std::size_t k = 0; k < cases.size(); ++k) out[k].push_back(numbers ? cases.quantity(k, i)->value : static_cast<double>(k + 1));
+  }
   return out;
 }
 
@@ -123,18 +146,27 @@ std::vector<std::string> signal_headers(const Nonlinear& study, const std::vecto
 }
 
 std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Row>& rows) {
-  const bool numbers = study.varies() && unit_of_parameter(study).has_value();
-  const std::vector<double> parameters = parameter_numbers(study);
+  const Cases& cases = study.sweep.cases;
+  std::vector<bool> numbers;
+  for (std::size_t i = 0; i < cases.names.size(); ++i) numbers.push_back(unit_of_parameter(study, i).has_value());
+  const std::vector<std::vector<double>> at = parameter_numbers(study);
   std::vector<FollowedValue> out;
   for (const Row& row : rows) {
     FollowedValue& value = out.emplace_back();
     const std::size_t k = study.case_of(row.number);
-    value.x = parameters[k];
-    if (study.varies()) value.parameter = numbers ? number_exactly(value.x) : study.sweep.cases.values[k][0].value_or("");
+    value.at = at[k];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      value.parameters.push_back(numbers[i] ? number_exactly(value.at[i]) : cases.values[k][i].value_or(""));
     value.backwards = study.backwards(row.number);
     value.status = row.status, value.reason = row.reason;
     value.orbit = Orbit::of(row.values);
     if (study.question.section) value.period = period_of(value.orbit.signals, row.units, study.question.section->tolerance);
+  }
+  if (study.basins) {
+    std::vector<Returns> motions;
+    for (const FollowedValue& value : out) motions.push_back(value.status == "finished" ? value.orbit.signals : Returns{});
+    const std::vector<std::size_t> found = attractors(motions, study.basins->tolerance);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k].attractor = found[k];
   }
   return out;
 }
@@ -144,6 +176,7 @@ std::vector<std::vector<std::string>> headings_of_tables(const Nonlinear& study)
   std::vector<Headings> out{value_headings(study)};
   if (study.question.section) out.push_back(section_headings(study, {}));
   if (study.question.cycle) out.push_back(orbit_headings(study, {}, multipliers));
+  if (study.basins) out.push_back(attractor_headings(study, {}));
   if (study.question.lyapunov) out.push_back(lyapunov_headings(study));
   return out;
 }
@@ -184,11 +217,48 @@ std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   return out;
 }
 
+std::vector<Basin> basins(const std::vector<FollowedValue>& values) {
+  std::vector<Basin> out;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k].attractor == 0) continue;
+    out.resize(std::max(out.size(), values[k].attractor));
+    Basin& one = out[values[k].attractor - 1];
+    if (one.starts++ == 0) one.first = k;
+  }
+  for (Basin& one : out) one.share = static_cast<double>(one.starts) / static_cast<double>(values.size());
+  return out;
+}
+
+std::string attractors_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+  std::string out = heading_line(attractor_headings(study, rows));
+  const std::vector<FollowedValue> values = followed(study, rows);
+  std::size_t number = 0;
+  for (const Basin& basin : basins(values)) {
+    const FollowedValue& first = values[basin.first];
+    out += std::to_string(++number) + "," + std::to_string(basin.starts) + "," + number_exactly(basin.share);
+    if (study.basins->random) {
+      const ShareBounds bounds = share_bounds(basin.starts, values.size());
+      out += "," + number_exactly(bounds.least) + "," + number_exactly(bounds.most);
+    }
+    out += "," + std::to_string(first.period) + "," + number_exactly(first.orbit.zero_one) + "," + number_exactly(first.orbit.dimension);
+    const Returns& returns = first.orbit.signals;
+    for (std::size_t i = 0; i < returns[0].size(); ++i) {
+      double least = returns[0][i], most = least, sum = 0;
+      for (const std::vector<double>& one : returns) least = std::min(least, one[i]), most = std::max(most, one[i]), sum += one[i];
+      for (const double x : {least, sum / static_cast<double>(returns.size()), most}) out += "," + number_exactly(x);
+    }
+    for (const std::string& one : first.parameters) out += "," + csv_field(one);
+    out += "\n";
+  }
+  return out;
+}
+
 std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   std::string out = heading_line(value_headings(study));
   for (const FollowedValue& value : followed(study, rows)) {
     const Orbit& orbit = value.orbit;
     out += fields_of(study, value) + value.status;
+    if (study.basins) out += "," + std::to_string(value.attractor);
     if (study.question.section) {
       const ImpactFigures& f = orbit.impacts;
       const double n = static_cast<double>(orbit.t.size()), none = std::numeric_limits<double>::quiet_NaN();
@@ -211,10 +281,14 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
 std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows) {
   using Json = nlohmann::ordered_json;
   const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+  const std::vector<std::string> headers = parameter_headers(study);
+  const std::vector<FollowedValue> values_followed = followed(study, rows);
   Json values = Json::array();
-  for (const FollowedValue& value : followed(study, rows)) {
+  for (const FollowedValue& value : values_followed) {
     Json& one = values.emplace_back(Json::object());
-    if (study.varies()) one[parameter_header(study)] = value.parameter, one["direction"] = value.backwards ? "backwards" : "forwards";
+    for (std::size_t i = 0; i < headers.size(); ++i) one[headers[i]] = value.parameters[i];
+    if (study.varies() && !study.basins) one["direction"] = value.backwards ? "backwards" : "forwards";
+    if (study.basins) one["attractor"] = value.attractor;
     one["status"] = value.status, one["reason"] = value.reason;
     if (study.question.section) {
       one["returns"] = value.orbit.t.size(), one["period"] = value.period, one["K"] = number(value.orbit.zero_one),
@@ -234,15 +308,21 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
     for (const Exponent& e : value.orbit.exponents)
       one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});
   }
-  Json varied = Json::array();
-  if (study.varies()) varied.push_back(parameter_header(study));
-  const Json out = {{"program", "pintle"},
-                    {"version", PINTLE_VERSION},
-                    {"title", study.sweep.study.title},
-                    {"file", study.sweep.study.file},
-                    {"varied", varied},
-                    {"recorded", study.question.section ? signal_headers(study, rows) : std::vector<std::string>()},
-                    {"values", values}};
+  Json found = Json::array();
+  for (const Basin& basin : basins(values_followed)) {
+    found.push_back({{"starts", basin.starts}, {"share", basin.share}, {"period", values_followed[basin.first].period}});
+    if (!study.basins->random) continue;
+    const ShareBounds bounds = share_bounds(basin.starts, values_followed.size());
+    found.back()["bounds of share"] = {bounds.least, bounds.most};
+  }
+  Json out = {{"program", "pintle"},
+              {"version", PINTLE_VERSION},
+              {"title", study.sweep.study.title},
+              {"file", study.sweep.study.file},
+              {"varied", headers},
+              {"recorded", study.question.section ? signal_headers(study, rows) : std::vector<std::string>()},
+              {"values", values}};
+  if (study.basins) out["attractors"] = found;
   return json_text(out) + "\n";
 }
 

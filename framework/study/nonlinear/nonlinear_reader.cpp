@@ -128,12 +128,25 @@ CycleQuestion read_cycle(const Node& node, const std::optional<SectionQuestion>&
   return out;
 }
 
-Cases read_over(const Node& root) {
+Cases read_varied(const Node& root) {
+  if (root.has("basins")) return read_cases(root.at("basins"), "study.basins");
   if (!root.has("over")) return {{}, {{}}, {}};
   Cases cases = read_grid(root.at("over"));
   if (cases.names.size() != 1)
     root.at("over").fail("names " + std::to_string(cases.names.size()) + " parameters; name one, and set the others");
   return cases;
+}
+
+BasinsQuestion read_basins(const Node& root) {
+  const Node node = root.at("basins");
+  if (root.has("over")) root.at("over").fail("does not go with basins, which vary the start alone; leave one of them out");
+  if (!root.has("section"))
+    node.fail(
+        "need a section, whose returns show where a motion ends; add for example section: {every: 2*pi/omega, record: {height: ball.y}}");
+  BasinsQuestion out;
+  if (node.has("tolerance")) out.tolerance = node.at("tolerance").quantity(dimension::number, rule::inside_zero_one);
+  out.random = node.has("random");
+  return out;
 }
 
 std::string without_units(std::string heading) {
@@ -148,7 +161,8 @@ void require_other_names(const Nonlinear& study, const Node& root) {
     const Node record = root.at("section").at("record");
     for (const Recorded& one : study.question.section->record) given.emplace_back(one.name, record.is_map() ? record.at(one.name) : record);
   }
-  if (study.varies()) given.emplace_back(study.sweep.cases.names[0], root.at("over"));  // last: it cannot be renamed here
+  for (const std::string& name : study.sweep.cases.names)  // last: they cannot be renamed here
+    given.emplace_back(name, root.at(study.basins ? "basins" : "over"));
   for (const std::vector<std::string>& table : headings_of_tables(study))
     for (const auto& [name, node] : given)
       if (std::ranges::count(table, without_units(name), without_units) > 1) node.fail(quoted(name) + " " + taken_name);
@@ -167,11 +181,12 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     root.at("direction").fail("belongs to studies over a parameter; add over, or leave it out");
   CaseSource source = file.study.scene;
   source.common.insert(source.common.end(), set.begin(), set.end());
-  const Cases cases = read_over(root);
+  Nonlinear out;
+  if (root.has("basins")) out.basins = read_basins(root), out.order = Order::from_start;
+  const Cases cases = read_varied(root);
   if (!cases.names.empty()) cases_of(file, cases, path, set, {});  // so that errors of the values are reported at them
   const Overrides first = cases.overrides(0);
   const ExpressionCheck expressions(source, first);
-  Nonlinear out;
   if (root.has("direction")) {
     const auto words = choices("study", "direction");
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());

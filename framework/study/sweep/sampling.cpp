@@ -262,14 +262,14 @@ std::vector<double> Stream::strata(std::size_t n) {
   return out;
 }
 
-Cases read_cases(const Node& sweep) {
+Cases read_cases(const Node& section, const char* table) {
   static const std::vector<std::string> kinds{"grid", "list", "random", "latin hypercube"};
-  check_keys(sweep, "study.sweep");
-  const std::string kind = which_key(sweep, kinds, "which cases it has");
-  const Node section = sweep.at(kind);
-  if (kind == "grid") return grid(section);
-  if (kind == "list") return list(section);
-  return sampled(section, kind == "latin hypercube");
+  check_keys(section, table);
+  const std::string kind = which_key(section, kinds, "which cases it has");
+  const Node values = section.at(kind);
+  if (kind == "grid") return grid(values);
+  if (kind == "list") return list(values);
+  return sampled(values, kind == "latin hypercube");
 }
 
 }  // namespace pintle

@@ -29,9 +29,10 @@ struct Cases {
 
 inline constexpr std::size_t most_cases = 1'000'000;
 
-/// Reads the section `sweep` of a study: `grid`, `list`, `random` or `latin hypercube`.
+/// Reads a section with `grid`, `list`, `random` or `latin hypercube`.
+/// @param table  of its keys, which may have others
 /// @throws SceneError  naming file, line, key, value and remedy
-Cases read_cases(const Node& sweep);
+Cases read_cases(const Node& section, const char* table = "study.sweep");
 /// All combinations of the values given in a group for each name, as under `grid`. @throws SceneError
 Cases read_grid(const Node& group);
 
