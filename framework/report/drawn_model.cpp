@@ -147,10 +147,13 @@ Json forces_json(const System& system) {
 
 void add_wheels(const System& system, Json& out) {
   const DrawnWheels all = wheels_of(system);
-  Json &wheels = out["wheels"] = Json::array(), &spans = out["spans"] = Json::array(), &lines = out["pitch lines"] = Json::array();
+  Json wheels = Json::array(), spans = Json::array(), lines = Json::array();
   for (const auto& w : all.wheels) wheels.push_back({{"marker", w.marker}, {"radius", w.radius}});
   for (const auto& s : all.spans) spans.push_back({{"a", s.a}, {"b", s.b}, {"radii", {s.radius_a, s.radius_b}}});
   for (const auto& l : all.lines) lines.push_back({{"a", l.a}, {"b", l.b}});
+  out["wheels"] = wheels;
+  out["spans"] = spans;
+  out["pitch lines"] = lines;
 }
 
 const char* kind_name(DrawnActuator::Kind kind) {
