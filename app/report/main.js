@@ -103,7 +103,7 @@ class Page {
   }
 
   drawAll() {
-    this.stage.colours = palette();
+    this.stage.colours = palette(this.data.model.palette);
     for (const panel of [...this.panels, this.ledger]) panel?.draw();
     this.resize();
   }

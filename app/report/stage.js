@@ -14,7 +14,7 @@ class Stage {
     this.deformation = this.model.deformation;
     this.arrows = 1;
     this.followed = -1;
-    this.colours = palette();
+    this.colours = palette(this.model.palette);
     this.measure();
     this.paths = this.makePaths();
   }

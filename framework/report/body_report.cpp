@@ -30,6 +30,7 @@ Json model_of(const Json& drawing) {
            {"pin", 0},
            {"exaggeration", 1},
            {"deformation", 1},
+           {"palette", palette_json()},
            {"bodies", Json::array({{{"name", drawing["name"]},
                                     {"origin", {0, 0}},
                                     {"outline", Json::array()},

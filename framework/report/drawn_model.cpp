@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/common/index.h"
+#include "framework/drawing/palette.h"
 #include "framework/mechanism/drawn_symbols.h"
 #include "framework/mechanism/drawn_wheels.h"
 #include "framework/mechanism/trajectory.h"
@@ -187,6 +188,13 @@ Json mesh_json(const FlexibleDrawing& body, std::size_t bytes) {
           {"stresses", of_points(body.stresses(), 4, mesh.points)}};
 }
 
+Json palette_json() {
+  Json bodies = Json::array(), givers = Json::object();
+  for (const Rgb& rgb : body_palette) bodies.push_back(css(rgb));
+  for (std::size_t k = 0; k < giver_names.size(); ++k) givers[giver_names[k]] = css(arrow_palette[k]);
+  return {{"bodies", bodies}, {"givers", givers}};
+}
+
 Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_bytes) {
   const Drafting drafting(scene, model);
   Json markers = Json::array(), points = Json::array(), outputs = Json::array();
@@ -197,6 +205,7 @@ Json drawn_model_json(const Scene& scene, const Model& model, std::size_t mesh_b
            {"pin", drafting.pin},
            {"exaggeration", drafting.exaggeration},
            {"deformation", drafting.deformation},
+           {"palette", palette_json()},
            {"bodies", bodies_json(model, drafting, mesh_bytes)},
            {"ground", profiles_json(model, ground)},
            {"markers", markers},
