@@ -253,7 +253,7 @@ int statics(const Options& options) {
   now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
     write_case(folder, scene, e, r);
-    write_text(folder / "drawing.json", body_drawing(e, r.solution.u));
+    write_text(folder / "drawing.json", body_drawing(e, r.solution.u, &r.stress));
   });
   waiting.end();
   if (options.json) {

@@ -105,7 +105,7 @@ class BentMesh {
     this.triangles = integersOf(json.triangles);
     this.rim = integersOf(json.rim);
     this.shapes = floatsOf(json.shapes);
-    this.stresses = floatsOf(json.stresses);
+    this.stresses = floatsOf(json.stresses ?? "");
     this.count = this.points.length / 2;
     this.world = new Float64Array(this.points.length);
     this.mises = new Float64Array(this.count);

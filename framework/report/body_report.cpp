@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/bodies/elastic_body.h"
-#include "framework/drawing/flexible_drawing.h"
+#include "framework/drawing/body_drawing.h"
 #include "framework/report/description.h"
 #include "framework/report/drawn_model.h"
 #include "framework/report/page.h"
@@ -78,14 +78,19 @@ Json periods_of(const Json& drawing) {
 
 }  // namespace
 
-std::string body_drawing(const ElasticBody& body, const Eigen::MatrixXd& shapes) {
-  ModalModel modes;
-  modes.shapes = shapes;
-  const FlexibleDrawing drawing(body, modes, Eigen::Vector2d::Zero());
+std::string body_drawing(const ElasticBody& body, const Eigen::MatrixXd& shapes, const StressField* stress) {
+  const BodyDrawing drawing(body);
+  Eigen::MatrixXd displacements(drawing.points.size(), shapes.cols()), stresses;
   Json largest = Json::array();
-  for (Eigen::Index k = 0; k < shapes.cols(); ++k) largest.push_back(drawing.largest_displacement(Eigen::VectorXd::Unit(shapes.cols(), k)));
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    const Eigen::Matrix2Xd u = drawing.displacement(shapes.col(k));
+    displacements.col(k) = u.reshaped();
+    largest.push_back(u.colwise().norm().maxCoeff());
+  }
+  if (stress) stresses = drawing.stress(*stress).reshaped();
+  const ShapedMesh mesh{drawing.points, drawing.cells, drawing.size, displacements, stress ? &stresses : nullptr};
   const Json out{
-      {"name", body.scene->name}, {"size", drawing.size()}, {"largest", largest}, {"mesh", mesh_json(drawing, ReportLimits().meshes)}};
+      {"name", body.scene->name}, {"size", drawing.size}, {"largest", largest}, {"mesh", mesh_json(mesh, ReportLimits().meshes)}};
   return json_text(out, -1);
 }
 

@@ -69,18 +69,18 @@ std::vector<std::array<int, 2>> rim_of(const std::vector<Corners>& triangles) {
 }
 
 /// Merges coinciding points: ribbons of beams have separate points where they meet.
-void join_coinciding(const FlexibleDrawing& body, std::vector<int>& stands_for) {
-  const std::vector<int> same = first_in_square(body.points(), 1e-9 * body.size());
+void join_coinciding(const Eigen::Matrix2Xd& x, double size, std::vector<int>& stands_for) {
+  const std::vector<int> same = first_in_square(x, 1e-9 * size);
   for (int& p : stands_for) p = same[at(p)];
 }
 
 }  // namespace
 
-DrawnMesh drawn_mesh(const FlexibleDrawing& body, std::size_t most) {
-  std::vector<int> stands_for(at(body.points().cols()));
+DrawnMesh drawn_mesh(const Eigen::Matrix2Xd& x, const std::vector<Cells>& cells, double size, std::size_t most) {
+  std::vector<int> stands_for(at(x.cols()));
   for (std::size_t p = 0; p < stands_for.size(); ++p) stands_for[p] = static_cast<int>(p);
-  join_coinciding(body, stands_for);
-  for (double width = body.size() / 1000; distinct(stands_for) > most; width *= 1.3) stands_for = first_in_square(body.points(), width);
+  join_coinciding(x, size, stands_for);
+  for (double width = size / 1000; distinct(stands_for) > most; width *= 1.3) stands_for = first_in_square(x, width);
 
   DrawnMesh out;
   std::map<int, int> number;
@@ -89,7 +89,7 @@ DrawnMesh drawn_mesh(const FlexibleDrawing& body, std::size_t most) {
     if (is_new) out.points.push_back(at_it->first);
     return at_it->second;
   };
-  for (const Corners& t : triangles_of(body.cells())) {
+  for (const Corners& t : triangles_of(cells)) {
     const Corners drawn{numbered(t[0]), numbered(t[1]), numbered(t[2])};
     if (drawn[0] != drawn[1] && drawn[1] != drawn[2] && drawn[2] != drawn[0]) out.triangles.push_back(drawn);
   }

@@ -81,7 +81,10 @@ Json bodies_json(const Model& model, const Drafting& drafting, std::size_t mesh_
              {"profiles", profiles_json(model, static_cast<int>(b))},
              {"modes", body.modes()}};
     if (b < drafting.colours.size() && drafting.colours[b]) one["colour"] = css(*drafting.colours[b]);
-    if (body.flex && flexible != model.drawings.end()) one["mesh"] = mesh_json(*flexible++, share);
+    if (body.flex && flexible != model.drawings.end()) {
+      const FlexibleDrawing& f = *flexible++;
+      one["mesh"] = mesh_json({f.points(), f.cells(), f.size(), f.displacements(), &f.stresses()}, share);
+    }
     out.push_back(std::move(one));
   }
   return out;
@@ -175,17 +178,18 @@ Json actuators_json(const System& system, const Drafting& drafting) {
 
 }  // namespace
 
-Json mesh_json(const FlexibleDrawing& body, std::size_t bytes) {
-  const std::size_t shapes = at(body.displacements().cols()), a_point = sizeof(float) * (2 + 6 * shapes) + 6 * 4;
-  const DrawnMesh mesh = drawn_mesh(body, std::max<std::size_t>(bytes / a_point, 50));
+Json mesh_json(const ShapedMesh& body, std::size_t bytes) {
+  const std::size_t shapes = at(body.displacements.cols()), a_point = sizeof(float) * (2 + (body.stresses ? 6 : 2) * shapes) + 6 * 4;
+  const DrawnMesh mesh = drawn_mesh(body.points, body.cells, body.size, std::max<std::size_t>(bytes / a_point, 50));
   Line points;
-  for (const int p : mesh.points) points.push_back(body.points().col(p));
-  return {{"points", flat(points)},
-          {"of", body.points().cols()},
-          {"triangles", numbers(mesh.triangles)},
-          {"rim", numbers(mesh.rim)},
-          {"shapes", of_points(body.displacements(), 2, mesh.points)},
-          {"stresses", of_points(body.stresses(), 4, mesh.points)}};
+  for (const int p : mesh.points) points.push_back(body.points.col(p));
+  Json out{{"points", flat(points)},
+           {"of", body.points.cols()},
+           {"triangles", numbers(mesh.triangles)},
+           {"rim", numbers(mesh.rim)},
+           {"shapes", of_points(body.displacements, 2, mesh.points)}};
+  if (body.stresses) out["stresses"] = of_points(*body.stresses, 4, mesh.points);
+  return out;
 }
 
 Json palette_json() {

@@ -10,8 +10,17 @@
 
 namespace pintle {
 
-/// The mesh of a flexible body with the displacements and stresses of its shapes. @param bytes  limit; a larger mesh is thinned
-nlohmann::ordered_json mesh_json(const FlexibleDrawing&, std::size_t bytes);
+/// A flexible body to be drawn, and its shapes, one column each.
+struct ShapedMesh {
+  const Eigen::Matrix2Xd& points;  ///< undeformed [m]
+  const std::vector<Cells>& cells;
+  double size;                           ///< diagonal [m]
+  const Eigen::MatrixXd& displacements;  ///< [x y] of all points
+  const Eigen::MatrixXd* stresses;       ///< [σx σy τxy σz] likewise; nullptr: without
+};
+
+/// As a page draws it. @param bytes  limit; a larger mesh is thinned
+nlohmann::ordered_json mesh_json(const ShapedMesh&, std::size_t bytes);
 
 /// The colours of pictures: of bodies in the order of the scene, and of arrows by what gives them.
 nlohmann::ordered_json palette_json();

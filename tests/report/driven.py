@@ -30,6 +30,7 @@ commands = {
     "shapes": ["modes", "modes_beam.yaml"],
     "loaded": ["static", "static_bracket.yaml"],
     "upright": ["statics", folder / "upright.yaml"],
+    "heavy": ["static", "modes_beam.yaml"],
 }
 (folder / "empty.html").write_text("<!DOCTYPE html>")
 browser = Chromium(folder / "empty.html")

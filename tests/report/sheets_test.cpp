@@ -153,9 +153,9 @@ output: {frames: 2}
     }
     return sum;
   };
-  const DrawnMesh fine = drawn_mesh(body, 1'000'000);
+  const DrawnMesh fine = drawn_mesh(body.points(), body.cells(), body.size(), 1'000'000);
   EXPECT_NEAR(area(fine), 0.02, 1e-9);
-  const DrawnMesh coarse = drawn_mesh(body, 60);
+  const DrawnMesh coarse = drawn_mesh(body.points(), body.cells(), body.size(), 60);
   EXPECT_LE(coarse.points.size(), 60U);
   EXPECT_NEAR(area(coarse), 0.02, 0.009);  // at two sides a square of 0.03 at most is lost
   double rim = 0;

@@ -14,7 +14,7 @@ gravity: [0, -9.81]
 bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [0, -1]}, pose: {at: [0, 1]}}}
 joints: {hinge: {revolute: [ground, rod.O]}}
 """)
-report("modes", "rest", "shapes", "loaded", "upright")
+report("modes", "rest", "shapes", "loaded", "upright", "heavy")
 
 
 class OtherResults(Driven):
@@ -63,6 +63,14 @@ class OtherResults(Driven):
             self.assertAlmostEqual(browser.get(f"page.stage.greatest{mine}") / value, 1, places=5)
         self.assertGreater(browser.get("page.stage.deformation"), 1)
         self.assertEqual(browser.get("byId('colour-most').textContent"), "33.2 MPa")
+
+    def test_stress_between_the_nodes_of_a_beam_is_that_of_the_results(self):
+        self.open("heavy")  # by its weight
+        held = json.loads((folder / "heavy/static.json").read_text())["greatest von Mises stress"]["value [Pa]"]
+        self.assertAlmostEqual(browser.get("page.stage.greatestStress") / held, 1, places=6)
+
+    def test_no_stress_is_held_that_is_not_shown(self):
+        self.assertNotIn("stresses", json.loads((folder / "shapes/drawing.json").read_text())["mesh"])
 
     def test_colours_change_within_a_triangle(self):
         self.open("loaded")
