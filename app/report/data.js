@@ -57,7 +57,7 @@ function rangeOf(values) {
   let least = Infinity;
   let most = -Infinity;
   for (const x of values) {
-    if (x < least) least = x;
+    if (x < least && x > -Infinity) least = x;
     if (x > most && x < Infinity) most = x;
   }
   return least <= most ? [least, most] : [0, 0];

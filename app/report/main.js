@@ -2,23 +2,33 @@
 
 // The page put together.
 
-/// Columns that a first look should show: the scene's own outputs, what happens in clearances and contacts, else joint
+/// In their order, at most four columns and two units a plot.
+function inPlots(names, table) {
+  const out = [];
+  for (const name of names) {
+    const last = out.at(-1)?.names ?? [];
+    const units = new Set([...last, name].map((one) => table.columns.get(one).unit));
+    if (last.length > 0 && last.length < 4 && units.size <= 2)
+      last.push(name);
+    else
+      out.push({names: [name]});
+  }
+  return out;
+}
+
+/// Columns that a first look should show: the scene's own outputs, all of them; what happens in clearances and contacts, else joint
 /// forces, a joint's orbit and the polar of its force, and how the mechanism moves.
 function firstPlots(model, table) {
   const known = (names) => names.filter((name) => table.columns.has(name));
-  const spans = new Map();  // the widest of each unit: what is far below it is rounding
-  for (const {unit, y} of table.columns.values()) {
-    const [least, most] = rangeOf(y);
-    spans.set(unit, Math.max(spans.get(unit) ?? 0, most - least));
-  }
+  const greatest = new Map();  // of each unit: what is far below it is rounding
+  for (const {unit, y} of table.columns.values()) greatest.set(unit, Math.max(greatest.get(unit) ?? 0, ...rangeOf(y).map(Math.abs)));
   const varies = (name) => {
     const {unit, y} = table.columns.get(name);
     const [least, most] = rangeOf(y);
-    return most - least > 1e-9 * Math.max(spans.get(unit), Math.abs(least), Math.abs(most));
+    return most - least > 1e-9 * greatest.get(unit);
   };
+  const outputs = inPlots(known(model.outputs), table);
   const out = [];
-  const outputs = known(model.outputs).filter(varies).slice(0, 2);
-  if (outputs.length > 0) out.push({names: outputs});
   const [clearance] = model.contacts.filter((c) => c.radius);
   const contacts = model.contacts.map(({name}) => name);
   const normal = known(contacts.map((name) => `${name}.normal`)).filter(varies).slice(0, 4);
@@ -29,7 +39,7 @@ function firstPlots(model, table) {
     out.push({names: normal});
   else
     out.push({names: known([...joints, ...springs]).filter(varies).slice(0, 2)});
-  if (clearance && known([`${clearance.name}.ex`, `${clearance.name}.ey`]).length === 2)
+  if (clearance && known([`${clearance.name}.ex`, `${clearance.name}.ey`]).filter(varies).length === 2)
     out.push({names: [`${clearance.name}.ey`], against: `${clearance.name}.ex`});
   const polar = [...(clearance ? [clearance] : []), ...model.joints].map(({name, on}) => [`${name}.fx on ${on}`, `${name}.fy on ${on}`])
                     .find((pair) => known(pair).filter(varies).length === 2);
@@ -37,7 +47,7 @@ function firstPlots(model, table) {
   const [stress] = [...table.columns.keys()].filter((name) => /\.(stress|von Mises|uy)$/.test(name) && varies(name));
   if (stress) out.push({names: [stress]});
   out.push({names: motion.slice(-2)});
-  return out.filter(({names}) => names.length > 0).slice(0, 4);
+  return [...outputs, ...out.filter(({names}) => names.length > 0)].slice(0, Math.max(4, outputs.length));
 }
 
 class Page {

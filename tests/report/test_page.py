@@ -188,6 +188,17 @@ class Forces(Driven):
 
 
 class Plots(Driven):
+    def test_all_outputs_come_first_and_rounding_not_at_all(self):
+        self.open("worn")
+        plots = browser.get("""(() => {
+          const columns = new Map([["a", "m", [0, 1]], ["b", "N", [0, 0]], ["c", "m", [0, 2]], ["d", "rad", [0, 3]], ["e", "", [5, 5]],
+                                   ["pin.fx on rod", "N", [1e-27, -1e-27]], ["pin.fy on rod", "N", [981e3, 981e3]], ["rod.vx", "m/s", [0, 1e-12]],
+                                   ["rod.vy", "m/s", [0, 1]]].map(([name, unit, y]) => [name, {name, unit, y}]));
+          const model = {outputs: ["a", "b", "c", "d", "e"], contacts: [], forces: [], joints: [{name: "pin", on: "rod"}], bodies: [{name: "rod"}]};
+          return firstPlots(model, {columns}).map(({names}) => names);
+        })()""")
+        self.assertEqual(plots, [["a", "b", "c"], ["d", "e"], ["rod.vy"]])
+
     def test_a_drag_zooms_all_and_two_clicks_show_all_again(self):
         self.open("worn")
         ranges = "[...page.panels.filter((panel) => !panel.against), page.ledger].map(({plot}) => [plot.scales.x.min, plot.scales.x.max])"
