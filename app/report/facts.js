@@ -44,7 +44,7 @@ function showFacts(run) {
   byId("scene-text").parentElement.hidden = !run["scene text"];
 }
 
-function showHead(title, run) {
+function showHead(title, run, onlyRow = null) {
   byId("title").textContent = title;
   const took = run["timings [s]"]?.integration ?? run["timings [s]"]?.computing;
   const words = [];
@@ -53,6 +53,7 @@ function showHead(title, run) {
   if (run.found === false) words.push(`not at rest: ${run.reason}`);
   if (unstable > 0) words.push(`unstable in ${unstable} ${unstable === 1 ? "direction" : "directions"}`);
   if (run["reached [s]"] !== undefined) words.push(`to ${engineering(run["reached [s]"], "s", 6)}`);
+  if (onlyRow !== null) words.push(`one row, at ${engineering(onlyRow, "s", 6)}: its values are below`);
   if (run.method?.name) words.push(`by ${run.method.name}`);
   if (run.counts?.steps) words.push(`${run.counts.steps} steps`);
   if (took !== undefined) words.push(`computed in ${engineering(took, "s", 3)}`);

@@ -50,6 +50,12 @@ function firstPlots(model, table) {
   return [...outputs, ...out.filter(({names}) => names.length > 0)].slice(0, Math.max(4, outputs.length));
 }
 
+/// The values of a table of one row, below each other.
+function asValues(file, columns) {
+  const rows = [...columns.values()].map(({name, unit, y}) => [unit ? `${name} [${unit}]` : name, Number.isNaN(y[0]) ? null : y[0]]);
+  return {file, rows, all: rows.length, noun: "values", columns: ["quantity", "value"].map((name) => ({name, unit: ""}))};
+}
+
 class Page {
   constructor(data) {
     this.data = data;
@@ -64,17 +70,20 @@ class Page {
     this.panels = [];
     this.stage.show.stress = t.length === 1 && this.stage.meshes.some((mesh) => mesh);
     this.overTime = t.length > 1 && !data.modes;  // else there is nothing to plot
+    this.onlyRow = t.length === 1 && !data.tables ? t[0] : null;
+    if (this.onlyRow !== null) data.tables = [asValues("trajectory.csv", this.table.columns)];
     if (this.overTime)
       for (const {names, against} of firstPlots(data.model, this.table)) this.addPlot(names, against);
     if (!(data.ledger?.rows > 0)) return;
     const ledger = readTable(data.ledger);
+    if (!this.overTime) return void data.tables?.push(asValues("ledger.csv", ledger.columns));
     this.ledger = new LedgerPanel(this.clock, ledger, data.run);
     for (const [name, column] of ledger.columns)
       if (!this.table.columns.has(name)) this.table.columns.set(name, column);
   }
 
   start() {
-    showHead(this.data.title, this.data.run);
+    showHead(this.data.title, this.data.run, this.onlyRow);
     showFacts(this.data.run);
     byId("decimation").textContent = this.table.whole ?
         `All ${this.table.rows} rows of trajectory.csv.` :

@@ -12,6 +12,7 @@ class StudyPage {
   use(table) {
     this.rows = table.rows;
     this.all = table.all;
+    this.noun = table.noun ?? "rows";
     this.columns = table.columns.map((column, index) => ({...column, index, numeric: this.isNumeric(index)}));
     this.varying = this.columns.filter((column) => new Set(this.rows.map((row) => row[column.index])).size > 1);
     this.brushes = new Map();
@@ -60,7 +61,7 @@ class StudyPage {
     byId("study-parallel").hidden = byId("study-hint").hidden = byId("study-scatter").parentElement.hidden = !plotted;
     byId("study-count").textContent = this.rows.length < this.all ?
         `${this.rows.length} of ${this.all} rows: evenly spaced ones, and those with an extreme value` :
-        `${this.rows.length} rows`;
+        `${this.rows.length} ${this.noun}`;
     for (const which of ["x", "y", "colour"]) this.chooser(which);
     for (const which of ["x", "y"]) this.logChooser(which);
     this.draw();

@@ -37,11 +37,20 @@ browser = Chromium(folder / "empty.html")
 atexit.register(browser.close)
 
 
+def call(*words):
+    subprocess.run([pintle, *words], check=True, stdout=subprocess.DEVNULL)
+
+
+def show(*names):
+    for name in names:
+        call("report", folder / name)
+
+
 def report(*names):
     for name in names:
         command, file, *more = commands[name]
-        for call in [command, source / "examples" / file, *more, "-o", folder / name], ["report", folder / name]:
-            subprocess.run([pintle, *call], check=True, stdout=subprocess.DEVNULL)
+        call(command, source / "examples" / file, *more, "-o", folder / name)
+        show(name)
 
 
 def table(file):

@@ -5,12 +5,19 @@ usage: test_page.py PINTLE"""
 import csv
 import math
 import os
+import shutil
 import unittest
 from pathlib import Path
 
-from driven import Driven, browser, folder, report, source, table
+from driven import Driven, browser, folder, report, show, source, table
 
 report("worn", "plate", "warned", "events", "sweep")
+
+# What a run leaves that is interrupted after its first row.
+shutil.copytree(folder / "worn", folder / "begun")
+for file in "trajectory.csv", "ledger.csv":
+    (folder / "begun" / file).write_text("".join((folder / "worn" / file).read_text().splitlines(True)[:2]))
+show("begun")
 
 
 class Transport(Driven):
@@ -317,6 +324,19 @@ class Study(Driven):
         self.assertEqual(speeds, [150, 200])
         browser.click("#study-clear")
         self.assertEqual(browser.get("document.querySelectorAll('#study-table tbody tr').length"), 4)
+
+
+class OneRow(Driven):
+    def test_is_said_and_its_values_are_listed(self):
+        self.open("begun")
+        self.assertIn("one row, at 0 s: its values are below", browser.get("byId('summary').textContent"))
+        self.assertEqual(browser.get("[byId('plots').hidden, byId('ledger').hidden, byId('transport').hidden]"), [True] * 3)
+        for index, file in enumerate(("trajectory", "ledger")):
+            names, (row,) = table(f"begun/{file}.csv")
+            browser.get(f"((byId('study-table-name').value = {index}), byId('study-table-name').onchange())")
+            shown = browser.get("[...byId('study-table').tBodies[0].rows].map((row) => [...row.cells].map(({title}) => title))")
+            self.assertEqual({name.partition(" [")[0]: float(value) for name, value in shown},
+                             {name: value for name, value in zip(names[1:], row[1:]) if not math.isnan(value)})
 
 
 class Screens(Driven):
