@@ -10,10 +10,11 @@ class StudyPage {
 
   /// Shows this table.
   use(table) {
-    this.rows = table.rows;
+    const filled = table.columns.map((_, c) => c).filter((c) => table.rows.length === 0 || table.rows.some((row) => row[c] !== null));
+    this.rows = table.rows.map((row) => filled.map((c) => row[c]));
     this.all = table.all;
     this.noun = table.noun ?? "rows";
-    this.columns = table.columns.map((column, index) => ({...column, index, numeric: this.isNumeric(index)}));
+    this.columns = filled.map((c, index) => ({...table.columns[c], index, numeric: this.isNumeric(index)}));
     this.varying = this.columns.filter((column) => new Set(this.rows.map((row) => row[column.index])).size > 1);
     this.brushes = new Map();
     this.sorted = {index: -1, ascending: true};  // as in the file
