@@ -142,10 +142,11 @@ function listenToOptions(page) {
   }
   byId("stress-option").hidden = byId("show-stress").disabled = Boolean(page.data.modes) || !stage.meshes.some((mesh) => mesh);  // enlarged modes have none
   if (stage.show.stress) showColourBar(stage);
+  byId("show-forces").parentElement.hidden = byId("show-forces").disabled = !stage.show.forces;
   byId("force-option").hidden = stage.usualForce === 0 && stage.usualCouple === 0;
   byId("arrows").oninput = ({target}) => ((stage.arrows = 2 ** target.value), page.redraw());
   slider(
-      "clearance", model.contacts.some((c) => c.radius), stage.exaggeration, Math.max(4 * stage.exaggeration, 10),
+      "clearance", stage.clearances.length > 0, stage.exaggeration, Math.max(4 * stage.exaggeration, 10),
       (x) => ((stage.exaggeration = x), page.redraw()));
   const visible = stage.greatestDeflection > 0 ? Math.max((0.2 * model.length) / stage.greatestDeflection, 10, 2 * stage.deformation) : 1;
   slider("deformation", stage.greatestDeflection > 0, stage.deformation, visible, (x) => ((stage.deformation = x), page.redraw()));

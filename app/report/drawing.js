@@ -14,8 +14,7 @@ function drawMechanism(stage) {
   for (const span of model.spans) drawBelt(stage, span);
   for (const actuator of model.actuators) drawActuator(stage, actuator);
   for (const joint of model.joints) drawJoint(stage, joint);
-  for (const contact of model.contacts)
-    if (contact.radius) drawClearance(stage, contact);
+  for (const contact of stage.clearances) drawClearance(stage, contact);
   if (stage.show.forces) drawForces(stage);
   if (stage.show.names) drawNames(stage);
   drawScaleBar(stage);
@@ -280,7 +279,6 @@ function drawJoint(stage, joint) {
 function drawClearance(stage, contact) {
   const centre = stage.motion.place(contact.b, stage.now);
   const e = stage.motion.point(contact.name, ["ex", "ey"], stage.time);
-  if (!e) return;
   const factor = stage.exaggeration;
   const journal = Math.max(contact.radius - factor * contact.clearance, 0.05 * contact.radius);
   circle(stage, centre, contact.radius * stage.scale);
@@ -360,7 +358,7 @@ function drawScaleBar(stage) {
 /// What is not drawn as it is.
 function drawNotes(stage) {
   const notes = [];
-  if (stage.model.contacts.some((c) => c.radius) && stage.exaggeration !== 1)
+  if (stage.clearances.length > 0 && stage.exaggeration !== 1)
     notes.push(`clearance drawn ${plain(stage.exaggeration, 3)} times as large`);
   if (stage.meshes.some((m) => m) && stage.deformation !== 1) notes.push(`deformation drawn ${plain(stage.deformation, 3)} times as large`);
   const {happening} = stage;

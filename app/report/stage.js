@@ -9,6 +9,7 @@ class Stage {
     this.motion = motion;
     this.model = motion.model;
     this.meshes = this.model.bodies.map((body) => (body.mesh ? new BentMesh(body.mesh) : null));
+    this.clearances = this.model.contacts.filter(({name, radius}) => radius && motion.column(`${name}.ex`) && motion.column(`${name}.ey`));
     this.show = {forces: true, paths: false, names: false, stress: false};
     this.exaggeration = this.model.exaggeration;
     this.deformation = this.model.deformation;
@@ -16,6 +17,7 @@ class Stage {
     this.followed = -1;
     this.colours = palette(this.model.palette);
     this.measure();
+    this.show.forces = this.motion.forces(motion.t[0], motion.poses(motion.t[0])).length > 0;
     this.paths = this.makePaths();
   }
 

@@ -31,6 +31,7 @@ commands = {
     "loaded": ["static", "static_bracket.yaml"],
     "upright": ["statics", folder / "upright.yaml"],
     "heavy": ["static", "modes_beam.yaml"],
+    "frozen": ["linearize", "slider_crank_clearance.yaml"],
 }
 (folder / "empty.html").write_text("<!DOCTYPE html>")
 browser = Chromium(folder / "empty.html")

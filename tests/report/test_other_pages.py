@@ -14,7 +14,7 @@ gravity: [0, -9.81]
 bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [0, -1]}, pose: {at: [0, 1]}}}
 joints: {hinge: {revolute: [ground, rod.O]}}
 """)
-report("modes", "rest", "shapes", "loaded", "upright", "heavy")
+report("modes", "rest", "shapes", "loaded", "upright", "heavy", "frozen")
 
 
 class OtherResults(Driven):
@@ -71,6 +71,19 @@ class OtherResults(Driven):
 
     def test_no_stress_is_held_that_is_not_shown(self):
         self.assertNotIn("stresses", json.loads((folder / "shapes/drawing.json").read_text())["mesh"])
+
+    def test_what_there_is_none_of_is_not_offered(self):
+        self.open("frozen")  # a worn pin, of whose clearance modes tell nothing
+        self.assertEqual(browser.get("[byId('show-forces').parentElement, byId('clearance-option')].map(({hidden}) => hidden)"), [True, True])
+        self.assertEqual(browser.get("""(() => {
+            const written = [], plain = write;
+            write = (stage, text, ...more) => (written.push(text), plain(stage, text, ...more));
+            page.stage.draw(0);
+            write = plain;
+            return written.filter((text) => text.includes("clearance"));
+        })()"""), [])
+        self.open("rest")
+        self.assertEqual(browser.get("[byId('show-forces').checked, byId('show-forces').parentElement.hidden]"), [True, False])
 
     def test_colours_change_within_a_triangle(self):
         self.open("loaded")
