@@ -11,7 +11,9 @@ class StudyPage {
   /// Shows this table.
   use(table) {
     const filled = table.columns.map((_, c) => c).filter((c) => table.rows.length === 0 || table.rows.some((row) => row[c] !== null));
-    this.rows = table.rows.map((row) => filled.map((c) => row[c]));
+    this.written = table.rows.map((row) => filled.map((c) => row[c]));
+    const isRounding = (x, {whole}) => typeof x === "number" && Math.abs(x) < 1e-9 * (whole ?? 0);
+    this.rows = table.rows.map((row) => filled.map((c) => (isRounding(row[c], table.columns[c]) ? 0 : row[c])));
     this.all = table.all;
     this.noun = table.noun ?? "rows";
     this.columns = filled.map((c, index) => ({...table.columns[c], index, numeric: this.isNumeric(index)}));
@@ -149,7 +151,7 @@ class StudyPage {
       const out =
           element("tr", {}, ...row.map((x, c) => element("td", {
                                          className: scales[c] ? "number" : "",
-                                         title: String(x ?? ""),
+                                         title: String(this.written[number][c] ?? ""),
                                          textContent: typeof x === "number" ? plain(scales[c] ? x * scales[c].factor : x, 6) : (x ?? "–")
                                        })));
       out.dataset.row = number;

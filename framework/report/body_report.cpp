@@ -99,8 +99,11 @@ std::optional<std::string> body_page(const fs::path& directory, const ReportLimi
   const auto modes = description(directory, "modes"), loaded = description(directory, "static");
   if (!drawing || (!modes && !loaded)) return {};
   const Description& results = modes ? *modes : *loaded;
-  const std::string title = results.json.value("title", drawing->json.value("name", std::string()));
+  std::string title = results.json.value("title", std::string());
+  if (title.empty()) title = drawing->json.value("name", std::string());
   Json out{{"title", title}, {"run", facts(results, limits.text)}, {"model", model_of(drawing->json)}};
+  for (const char* const basis : {"natural", "reduced"})  // the tables have them
+    if (out["run"].contains(basis)) out["run"][basis].erase("modes");
   if (modes)
     out["modes"] = modes->json["natural"]["modes"], out["trajectory"] = periods_of(drawing->json);
   else

@@ -89,7 +89,15 @@ bool shows_starts(const TableFile& table, const TableJson& description) {
   return description.contains("attractors") && table.file == std::string_view("values.csv");
 }
 
-TableJson table_of(const TableFile& kind, const TableJson& description, const fs::path& file, std::size_t most_rows) {
+/// What all modes of the body together have of a column: a number that is nothing beside it is rounding. null for other columns.
+TableJson whole_of(const std::string& column, const Description& results) {
+  if (results.question != "modes") return nullptr;
+  if (column.starts_with("share")) return 1;
+  const std::string key = column.starts_with("effective mass") ? "mass [kg]" : "inertia about the centre [kg m^2]";
+  return column.starts_with("effective") ? results.json.value(key, TableJson()) : TableJson();
+}
+
+TableJson table_of(const TableFile& kind, const Description& results, const fs::path& file, std::size_t most_rows) {
   CsvReader reader(file);
   std::vector<TableJson> rows;
   for (std::vector<std::string> fields; reader.next(fields);) {
@@ -100,14 +108,15 @@ TableJson table_of(const TableFile& kind, const TableJson& description, const fs
   for (const std::string& heading : reader.header()) {
     const ColumnName column = column_name(heading);
     columns.push_back({{"name", column.name}, {"unit", column.unit}});
+    if (const TableJson whole = whole_of(column.name, results); !whole.is_null()) columns.back()["whole"] = whole;
   }
   for (const std::size_t r : kept(rows, reader.header().size(), most_rows)) shown.push_back(std::move(rows[r]));
-  std::vector<std::string> first = names_in(description, "varied");
-  const bool starts = shows_starts(kind, description);
+  std::vector<std::string> first = names_in(results.json, "varied");
+  const bool starts = shows_starts(kind, results.json);
   std::string colour = starts ? "attractor" : kind.logarithmic ? columns[1]["name"].get<std::string>() : kind.colour;
   if (first.size() > 1 && !starts) first.resize(1);
   for (const char* key : {"measures", "recorded"})
-    for (const std::string& name : names_in(description, key)) first.push_back(name);
+    for (const std::string& name : names_in(results.json, key)) first.push_back(name);
   first.resize(2);
   if (*kind.x) first[0] = kind.x;
   if (*kind.y && !(starts && !first[1].empty())) first[1] = kind.y;
@@ -135,7 +144,7 @@ TableJson tables_json(const Description& results, std::size_t most_rows) {
       for (const TableFile& table : kind.tables)
         if (fs::exists(directory / table.file))
           out.insert(shows_starts(table, results.json) ? out.begin() : out.end(),
-                     table_of(table, results.json, directory / table.file, most_rows));
+                     table_of(table, results, directory / table.file, most_rows));
   if (out.empty()) throw ResultsError(results.file.string() + ": its tables are missing from the folder; run it again");
   return out;
 }

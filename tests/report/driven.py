@@ -30,6 +30,7 @@ commands = {
     "shapes": ["modes", "modes_beam.yaml"],
     "loaded": ["static", "static_bracket.yaml"],
     "upright": ["statics", folder / "upright.yaml"],
+    "free": ["modes", folder / "free.yaml"],
     "heavy": ["static", "modes_beam.yaml"],
     "frozen": ["linearize", "slider_crank_clearance.yaml"],
 }

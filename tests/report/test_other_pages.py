@@ -14,7 +14,11 @@ gravity: [0, -9.81]
 bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.1}, points: {O: [0, -1]}, pose: {at: [0, 1]}}}
 joints: {hinge: {revolute: [ground, rod.O]}}
 """)
-report("modes", "rest", "shapes", "loaded", "upright", "heavy", "frozen")
+(folder / "free.yaml").write_text("""
+materials: {steel: {young: 207 GPa, poisson: 0.3, density: 7850 kg/m^3}}
+bodies: {bar: {beam: {through: [a, b], section: {rectangle: [1 mm, 25 mm]}, material: steel, elements: 8}, points: {a: [0, 0], b: [0.3, 0]}}}
+""")
+report("modes", "rest", "shapes", "loaded", "upright", "free", "heavy", "frozen")
 
 
 class OtherResults(Driven):
@@ -68,6 +72,16 @@ class OtherResults(Driven):
         self.open("heavy")  # by its weight
         held = json.loads((folder / "heavy/static.json").read_text())["greatest von Mises stress"]["value [Pa]"]
         self.assertAlmostEqual(browser.get("page.stage.greatestStress") / held, 1, places=6)
+
+    def test_masses_of_rounding_are_none(self):
+        self.open("free")
+        names, rows = table("free/modes.csv")
+        shown = browser.get("[...byId('study-table').tBodies[0].rows].map((row) => [...row.cells].map((cell) => [cell.textContent, cell.title]))")
+        self.assertEqual([[float(title) for _, title in row] for row in shown], rows)
+        for name in "effective mass x", "effective mass y", "effective inertia", "share x", "share y", "share rotation":
+            self.assertEqual({row[names.index(name)][0] for row in shown}, {"0"}, name)
+        self.assertEqual(browser.get("byId('title').textContent"), "bar")
+        self.assertNotIn("effective mass", browser.get("byId('facts').textContent"))
 
     def test_no_stress_is_held_that_is_not_shown(self):
         self.assertNotIn("stresses", json.loads((folder / "shapes/drawing.json").read_text())["mesh"])
