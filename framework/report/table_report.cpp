@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
+#include "framework/common/text.h"
 #include "framework/report/csv_reader.h"
 #include "framework/report/description.h"
 #include "framework/report/page.h"
@@ -130,6 +133,32 @@ TableJson table_of(const TableFile& kind, const Description& results, const fs::
           {"logarithmic", kind.logarithmic}};
 }
 
+/// Each text of warnings.csv once, with its cases.
+TableJson warnings_of(const fs::path& directory) {
+  constexpr std::size_t most = 100;
+  TableJson out = TableJson::array();
+  if (!fs::exists(directory / "warnings.csv")) return out;
+  CsvReader file(directory / "warnings.csv");
+  if (file.header().size() != 2)
+    throw ResultsError((directory / "warnings.csv").string() + ":1: does not have the columns case and warning");
+  struct Cases {
+    std::string text, first, last = {};
+    std::size_t count = 0;
+  };
+  std::vector<Cases> all;
+  std::map<std::string, std::size_t> place;
+  for (std::vector<std::string> fields; file.next(fields);) {
+    const auto [it, is_new] = place.try_emplace(fields[1], all.size());
+    if (is_new) all.push_back({fields[1], fields[0]});
+    if (Cases& cases = all[it->second]; std::exchange(cases.last, fields[0]) != fields[0]) ++cases.count;
+  }
+  for (std::size_t k = 0; k < std::min(most, all.size()); ++k)
+    out.push_back((all[k].count > 1 ? counted(all[k].count, "case") + ", the first is case " : "case ") + all[k].first + ": " +
+                  all[k].text);
+  if (all.size() > most) out.push_back("… and " + counted(all.size() - most, "other warning") + ", see warnings.csv");
+  return out;
+}
+
 }  // namespace
 
 bool has_table_page(const fs::path& directory) {
@@ -155,7 +184,9 @@ std::optional<std::string> table_page(const fs::path& directory, std::size_t mos
     if (!results) continue;
     std::string title = results->json.value("title", std::string());
     if (title.empty()) title = results->json.value("file", std::string(kind.name));
-    const TableJson data{{"title", title}, {"run", facts(*results, most_text)}, {"tables", tables_json(*results, most_rows)}};
+    TableJson run = facts(*results, most_text);
+    for (const TableJson& warning : warnings_of(directory)) run["warnings"].push_back(warning);
+    const TableJson data{{"title", title}, {"run", run}, {"tables", tables_json(*results, most_rows)}};
     return page(title, json_text(data, -1));
   }
   return {};

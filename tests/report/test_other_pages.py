@@ -1,4 +1,4 @@
-"""Pages of `pintle report` that show no run, driven in headless Chromium: equilibria, modes, static cases.
+"""Pages of `pintle report` that show no run, driven in headless Chromium: equilibria, modes, static cases, sweeps.
 
 usage: test_other_pages.py PINTLE"""
 
@@ -7,7 +7,7 @@ import json
 import math
 import unittest
 
-from driven import Driven, browser, folder, report, table
+from driven import Driven, browser, folder, report, show, table
 
 (folder / "upright.yaml").write_text("""
 gravity: [0, -9.81]
@@ -19,6 +19,13 @@ materials: {steel: {young: 207 GPa, poisson: 0.3, density: 7850 kg/m^3}}
 bodies: {bar: {beam: {through: [a, b], section: {rectangle: [1 mm, 25 mm]}, material: steel, elements: 8}, points: {a: [0, 0], b: [0.3, 0]}}}
 """)
 report("modes", "rest", "shapes", "loaded", "upright", "free", "heavy", "frozen")
+
+# Cases of a sweep with warnings.
+(folder / "doubted").mkdir()
+(folder / "doubted/sweep.csv").write_text("case,speed [m/s],peak [N],status\n1,1,3,finished\n2,2,,refused\n")
+(folder / "doubted/sweep.json").write_text('{"title": "Doubted"}')
+(folder / "doubted/warnings.csv").write_text('case,warning\n1,"steep, at 3 s"\n2,loose\n2,"steep, at 3 s"\n2,loose\n')
+show("doubted")
 
 
 class OtherResults(Driven):
@@ -112,6 +119,11 @@ class OtherResults(Driven):
         self.open("upright")
         self.assertEqual(browser.get("byId('summary').textContent.split(' · ')[0]"), "unstable in 1 direction")
         self.assertTrue(browser.get("byId('summary').classList.contains('trouble')"))
+
+    def test_warnings_of_cases_are_listed_once_with_their_number(self):
+        self.open("doubted")
+        self.assertEqual(browser.get("[...byId('warnings').children].map((one) => one.textContent)"),
+                         ["2 cases, the first is case 1: steep, at 3 s", "case 2: loose"])
 
 
 if __name__ == "__main__":
