@@ -51,6 +51,8 @@ const std::vector<TableKind>& kinds() {
   return all;
 }
 
+constexpr const char* stopped_sweep = "sweep-so-far.csv";
+
 /// The number, if the whole field is one.
 TableJson value_of(const std::string& field) {
   if (field.empty()) return nullptr;
@@ -159,10 +161,23 @@ TableJson warnings_of(const fs::path& directory) {
   return out;
 }
 
+/// The cases so far of a sweep that was stopped.
+std::optional<std::string> stopped_page(const fs::path& directory, std::size_t most_rows) {
+  const fs::path file = directory / stopped_sweep;
+  if (!fs::exists(file)) return {};
+  const TableJson table = table_of({stopped_sweep}, {"sweep", file, TableJson::object()}, file, most_rows);
+  const std::string title = directory.filename().string();
+  const std::string reason = counted(table["all"].get<std::size_t>(), "case") + " so far; the command of the sweep continues it";
+  const TableJson data{
+      {"title", title}, {"run", {{"status", "the sweep has not ended"}, {"reason", reason}}}, {"tables", TableJson::array({table})}};
+  return page(title, json_text(data, -1));
+}
+
 }  // namespace
 
 bool has_table_page(const fs::path& directory) {
-  return std::ranges::any_of(kinds(), [&](const TableKind& kind) { return fs::exists(directory / (std::string(kind.name) + ".json")); });
+  return fs::exists(directory / stopped_sweep) ||
+         std::ranges::any_of(kinds(), [&](const TableKind& kind) { return fs::exists(directory / (std::string(kind.name) + ".json")); });
 }
 
 TableJson tables_json(const Description& results, std::size_t most_rows) {
@@ -189,7 +204,7 @@ std::optional<std::string> table_page(const fs::path& directory, std::size_t mos
     const TableJson data{{"title", title}, {"run", run}, {"tables", tables_json(*results, most_rows)}};
     return page(title, json_text(data, -1));
   }
-  return {};
+  return stopped_page(directory, most_rows);
 }
 
 }  // namespace pintle

@@ -20,12 +20,13 @@ bodies: {bar: {beam: {through: [a, b], section: {rectangle: [1 mm, 25 mm]}, mate
 """)
 report("modes", "rest", "shapes", "loaded", "upright", "free", "heavy", "frozen")
 
-# Cases of a sweep with warnings.
-(folder / "doubted").mkdir()
-(folder / "doubted/sweep.csv").write_text("case,speed [m/s],peak [N],status\n1,1,3,finished\n2,2,,refused\n")
+# Cases of a sweep with warnings, and one that was stopped.
+for name, file in ("doubted", "sweep.csv"), ("stopped", "sweep-so-far.csv"):
+    (folder / name).mkdir()
+    (folder / name / file).write_text("case,speed [m/s],peak [N],status\n1,1,3,finished\n2,2,,refused\n")
 (folder / "doubted/sweep.json").write_text('{"title": "Doubted"}')
 (folder / "doubted/warnings.csv").write_text('case,warning\n1,"steep, at 3 s"\n2,loose\n2,"steep, at 3 s"\n2,loose\n')
-show("doubted")
+show("doubted", "stopped")
 
 
 class OtherResults(Driven):
@@ -124,6 +125,13 @@ class OtherResults(Driven):
         self.open("doubted")
         self.assertEqual(browser.get("[...byId('warnings').children].map((one) => one.textContent)"),
                          ["2 cases, the first is case 1: steep, at 3 s", "case 2: loose"])
+
+    def test_of_a_stopped_sweep_the_cases_so_far_are_there(self):
+        self.open("stopped")
+        self.assertEqual(browser.get("byId('summary').textContent"),
+                         "the sweep has not ended: 2 cases so far; the command of the sweep continues it")
+        self.assertTrue(browser.get("byId('summary').classList.contains('trouble')"))
+        self.assertEqual(browser.get("[...byId('study-table').tBodies[0].rows].map((row) => row.cells[2].title)"), ["3", ""])
 
 
 if __name__ == "__main__":
