@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace pintle {
 
@@ -48,10 +50,14 @@ struct Sample {
   bool there() const { return !std::isnan(value); }
 };
 
-/// A reduced column: first, last, and the least and greatest value of each stretch, in their order.
+/// A reduced column: first, last, and the least and greatest value of each stretch, in their order; of gaps the beginning, where a stretch
+/// has several that of the last: longer ones are all kept.
 class Extremes {
  public:
   void add(double t, double value) {
+    const bool was_empty = std::exchange(is_empty_, std::isnan(value));
+    if (is_empty_ && !was_empty) gap_ = t;
+    if (is_empty_) return;
     last_ = {t, value};
     if (!first_.there()) first_ = last_;
     if (!least_.there() || value < least_.value) least_ = last_;
@@ -59,18 +65,32 @@ class Extremes {
   }
   void end_stretch(Sheet& sheet) {
     if (least_.t > greatest_.t) std::swap(least_, greatest_);
-    if (sheet.t.empty()) keep(first_, sheet);
-    keep(least_, sheet), keep(greatest_, sheet);
+    if (!begun_) keep_with_gap(first_, sheet);
+    begun_ = first_.there();
+    keep_with_gap(least_, sheet), keep_with_gap(greatest_, sheet), keep_gap(sheet);
     least_ = greatest_ = {};
   }
-  void finish(Sheet& sheet) { end_stretch(sheet), keep(last_, sheet); }
+  void finish(Sheet& sheet) {
+    end_stretch(sheet);
+    if (!is_empty_) keep(last_, sheet);
+  }
 
  private:
+  void keep_with_gap(const Sample& s, Sheet& sheet) {
+    if (s.there() && gap_ && *gap_ < s.t) keep_gap(sheet);
+    keep(s, sheet);
+  }
+  void keep_gap(Sheet& sheet) {
+    if (gap_) sheet.t.push_back(*gap_), sheet.values[0].push_back(std::nan(""));
+    gap_.reset();
+  }
   static void keep(const Sample& s, Sheet& sheet) {
     if (!s.there() || (!sheet.t.empty() && sheet.t.back() == s.t && sheet.values[0].back() == s.value)) return;
     sheet.t.push_back(s.t), sheet.values[0].push_back(s.value);
   }
   Sample first_, last_, least_, greatest_;
+  std::optional<double> gap_;
+  bool is_empty_ = false, begun_ = false;
 };
 
 ReducedTable whole_table(CsvReader& file) {
@@ -136,7 +156,7 @@ ReducedTable reduced_by_column(const std::filesystem::path& path, const SheetLim
   Row row;
   for (; file.next(row); ++out.rows) {
     for (std::size_t c = 1; c < columns; ++c) {
-      if (!std::isnan(row[c])) extremes[c].add(row[0], row[c]);
+      extremes[c].add(row[0], row[c]);
       if (stretches.ends_after(out.rows)) extremes[c].end_stretch(out.sheets[c - 1]);
     }
     if (out.rows == 0 || pauses.ends_after(out.rows)) append(out.poses, row, posed);

@@ -19,7 +19,7 @@ struct Sheet {
 struct ReducedTable {
   std::size_t rows = 0;       ///< of the file
   bool whole = true;          ///< all of them are included, in one sheet
-  std::vector<Sheet> sheets;  ///< otherwise one per column: the least and greatest value of each stretch of rows
+  std::vector<Sheet> sheets;  ///< otherwise one per column: the least and greatest value of each stretch of rows, and an empty one of a gap
   Sheet poses;                ///< in that case, some columns at evenly spaced rows, for drawing; otherwise empty
 };
 

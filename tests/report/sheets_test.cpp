@@ -82,7 +82,25 @@ TEST(Sheets, ALongTableKeepsExtremesOfEveryStretch) {
   }
   EXPECT_EQ(*std::ranges::max_element(table.sheets[0].values[0]), full.rows[rows / 3][1]);
   EXPECT_EQ(*std::ranges::min_element(table.sheets[1].values[0]), full.rows[rows / 2][2]);
-  EXPECT_TRUE(std::ranges::none_of(table.sheets[2].values[0], [](double x) { return std::isnan(x); }));
+  EXPECT_LE(2 * table.sheets[2].t.size(), 3 * values / 4 + 8) << "of a column with a gap in every other row";
+}
+
+/// Rows 0 to 9, 1001 and 8000 to 12999 are empty, stretches have 80 rows.
+TEST(Sheets, ALongTableKeepsAnEmptyPointOfEachGap) {
+  const Folder folder;
+  std::string text = "t [s],x [m]\n";
+  for (int i = 0; i < 20'000; ++i) {
+    const bool empty = i < 10 || i == 1001 || (i >= 8000 && i < 13'000);
+    text += std::to_string(i) + "," + (empty ? "" : std::to_string(i % 7)) + "\n";
+  }
+  const Sheet sheet = reduced_by_column(folder.write("t.csv", text), {2000, 300}, {}).sheets.at(0);
+  EXPECT_TRUE(std::ranges::is_sorted(sheet.t));
+  std::vector<double> empty;
+  for (std::size_t i = 0; i < sheet.t.size(); ++i)
+    if (std::isnan(sheet.values[0][i])) empty.push_back(sheet.t[i]);
+  EXPECT_EQ(empty, (std::vector<double>{0, 1001, 8000}));
+  EXPECT_EQ(sheet.t[1], 10);
+  EXPECT_EQ(sheet.t.back(), 19'999);
 }
 
 TEST(Sheets, PosesAreEvenlySpacedRowsWithTheFirstAndLast) {
