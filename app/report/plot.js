@@ -129,7 +129,8 @@ function axisNumbers(splits, factor) {
 function joined(columns) {
   const withoutNaN = ({y}) => (y.some(Number.isNaN) ? Array.from(y, (x) => (Number.isNaN(x) ? null : x)) : y);
   if (columns.every(({t}) => t === columns[0].t)) return [columns[0].t, ...columns.map(withoutNaN)];
-  return uPlot.join(columns.map((column) => [column.t, withoutNaN(column)]));
+  const [nothing, widened] = [0, 2];  // a gap up to the values before and after it, whatever times the other columns have between
+  return uPlot.join(columns.map((column) => [column.t, withoutNaN(column)]), columns.map(() => [nothing, widened]));
 }
 
 function timePlot(panel, columns, width, height) {

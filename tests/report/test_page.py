@@ -249,6 +249,11 @@ class Plots(Driven):
             for t, x, y in zip(*pairs):
                 self.assertEqual([x, y], [by_time[t][names.index(across)], by_time[t][names.index(up)]], f"{up} against {across} at {t}")
 
+    def test_a_gap_reaches_from_value_to_value(self):
+        self.open("worn")
+        gap = browser.get("joined([{t: [0, 1, 4], y: [5, NaN, 6]}, {t: [0, 2, 3, 4], y: [7, 8, 9, 7]}])[1].map((y) => (y === undefined ? 'bridged' : y))")
+        self.assertEqual(gap, [5, None, None, None, 6])
+
     def test_axes_of_a_column_against_another_are_their_own(self):
         self.open("plate")
         axes = browser.get("""(() => {
