@@ -26,7 +26,13 @@ for name, file in ("doubted", "sweep.csv"), ("stopped", "sweep-so-far.csv"):
     (folder / name / file).write_text("case,speed [m/s],peak [N],status\n1,1,3,finished\n2,2,,refused\n")
 (folder / "doubted/sweep.json").write_text('{"title": "Doubted"}')
 (folder / "doubted/warnings.csv").write_text('case,warning\n1,"steep, at 3 s"\n2,loose\n2,"steep, at 3 s"\n2,loose\n')
-show("doubted", "stopped")
+
+# A study of basins: its plane of starts comes first.
+(folder / "basins").mkdir()
+(folder / "basins/section.csv").write_text("x0 [m],v0 [m/s],return,t [s],x [m]\n0,0,1,1,1\n0,1,1,1,2\n1,0,1,1,1\n")
+(folder / "basins/values.csv").write_text("x0 [m],v0 [m/s],status,attractor,returns\n0,0,finished,1,1\n0,1,finished,2,1\n1,0,finished,1,1\n")
+(folder / "basins/nonlinear.json").write_text(json.dumps({"title": "Two wells", "varied": ["x0 [m]", "v0 [m/s]"], "recorded": ["x [m]"], "attractors": []}))
+show("doubted", "stopped", "basins")
 
 
 class OtherResults(Driven):
@@ -132,6 +138,11 @@ class OtherResults(Driven):
                          "the sweep has not ended: 2 cases so far; the command of the sweep continues it")
         self.assertTrue(browser.get("byId('summary').classList.contains('trouble')"))
         self.assertEqual(browser.get("[...byId('study-table').tBodies[0].rows].map((row) => row.cells[2].title)"), ["3", ""])
+
+    def test_of_basins_shows_the_plane_of_starts_first(self):
+        self.open("basins")
+        self.assertEqual(browser.get("page.data.tables.map(({file}) => file)"), ["values.csv", "section.csv"])
+        self.assertEqual(browser.get("[page.x.name, page.y.name, page.colour.name]"), ["x0", "v0", "attractor"])
 
 
 if __name__ == "__main__":
