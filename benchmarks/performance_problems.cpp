@@ -211,7 +211,7 @@ Problem flexible_slider_crank(bool quick) {
       "undamped, starting straight, %g s. Error: the largest of the crank's angle [rad], its speed over 150 rad/s, and the place "
       "of the coupler's end over its length. Reference: Dormand-Prince at 1e-13; Fehlberg at 1e-13 differs from it by %.0e. That both "
       "stand "
-      "on the same equations is why these are judged elsewhere (tests/scenes/oracle_test.cpp, paper_flexible_test.cpp).",
+      "on the same equations is why these are judged elsewhere (tests/scenes/mechanisms/oracle_test.cpp, paper_flexible_test.cpp).",
       until, difference(end, check));
   Start& start = p.starts.emplace_back();
   start.scene = [until](double tolerance) {

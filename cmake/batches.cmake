@@ -1,5 +1,6 @@
-# pintle_batches(TARGET SIZE N [ALONE PATTERN]): the files of a folder are compiled N at a time, so that headers are read and
-# Eigen's templates made once for N files; those whose path matches PATTERN are compiled by themselves. Helpers in anonymous
+# pintle_batches(TARGET SIZE N [ALONE PATTERN] [DEPTH D]): the files of a folder are compiled N at a time, so that headers are read and
+# Eigen's templates made once for N files; those whose path matches PATTERN are compiled by themselves. Of folders deeper than D the first
+# D names count: those below are one. Helpers in anonymous
 # namespaces of one batch must differ in name. The preset dev compiles each file by itself and so finds a missing include.
 option(PINTLE_BATCHES "Compile several files of a folder at a time" ON)
 
@@ -7,7 +8,7 @@ function(pintle_batches target)
   if(NOT PINTLE_BATCHES)
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 batch "" "SIZE;ALONE" "")
+  cmake_parse_arguments(PARSE_ARGV 1 batch "" "SIZE;ALONE;DEPTH" "")
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     if(batch_ALONE AND source MATCHES "${batch_ALONE}")
@@ -16,6 +17,14 @@ function(pintle_batches target)
     cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     cmake_path(GET folder PARENT_PATH folder)
+    if(batch_DEPTH)
+      string(REPLACE "/" ";" folder "${folder}")
+      list(LENGTH folder depth)
+      if(depth GREATER batch_DEPTH)
+        list(SUBLIST folder 0 ${batch_DEPTH} folder)
+      endif()
+      list(JOIN folder "/" folder)
+    endif()
     string(MAKE_C_IDENTIFIER "${folder}" folder)
     math(EXPR number "0${count_${folder}} / ${batch_SIZE}")
     math(EXPR count_${folder} "0${count_${folder}} + 1")

@@ -8,7 +8,7 @@
 
 #include "framework/component/fe/assembly.h"
 #include "framework/component/reduction/modal_model.h"
-#include "tests/unit/fe_bodies.h"
+#include "tests/unit/component/fe_bodies.h"
 
 /// Bodies that the tests of reductions share, and what these judge by: dense algebra on the
 /// assembled matrices, and the rims as the tests themselves made them.

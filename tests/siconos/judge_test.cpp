@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "framework/scene/yaml/reader.h"
-#include "tests/scenes/rigid_scenes.h"
+#include "tests/scenes/contact/rigid_scenes.h"
 #include "tests/siconos/siconos_systems.h"
 
 namespace pintle::siconos_test {
