@@ -36,7 +36,7 @@ int carry_out(int argc, char** argv) {
   std::string scene;
   std::vector<std::string> set;
   int port = 0;
-  command.add_option("scene", scene, "scene file (YAML); the page is updated whenever a file in its folder is saved")
+  command.add_option("scene", scene, "scene file (YAML); the page is updated whenever it or a file that it reads is saved")
       ->required()
       ->type_name("SCENE.yaml");
   command.add_option("--set", set, "override a parameter or key of the scene; may be repeated")

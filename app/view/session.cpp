@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 
 #include <Eigen/Geometry>
 
 #include <nlohmann/json.hpp>
 
+#include "files/noted.h"
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
 #include "framework/common/file_names.h"
@@ -23,20 +25,24 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Eigen::Vector2d;
 
-/// The modification times of all files in its folder that the scene may read, including the scene itself if it exists.
-std::map<fs::path, fs::file_time_type> saved_files(const fs::path& scene) {
-  std::map<fs::path, fs::file_time_type> out;
+/// Modification times of the files read, and of those in their folders that these may read in turn, as drawings do.
+SavedFiles saved_files(const std::vector<fs::path>& read) {
+  SavedFiles out;
   const auto add = [&](const fs::path& file) {
     std::error_code gone;
     if (const auto time = fs::last_write_time(file, gone); !gone) out[file] = time;
   };
-  const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
-  std::error_code ignored;
-  for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) {
-    constexpr std::array<std::string_view, 7> read{".yaml", ".yml", ".csv", ".geo", ".inp", ".msh", ".json"};
-    if (std::ranges::find(read, ending_of(entry->path())) != read.end()) add(entry->path());
+  std::set<fs::path> folders;
+  for (const fs::path& file : read) {
+    add(file);
+    folders.insert(file.has_parent_path() ? file.parent_path() : fs::path("."));
   }
-  add(scene);
+  std::error_code ignored;
+  for (const fs::path& folder : folders)
+    for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) {
+      constexpr std::array<std::string_view, 7> kinds{".yaml", ".yml", ".csv", ".geo", ".inp", ".msh", ".json"};
+      if (std::ranges::find(kinds, ending_of(entry->path())) != kinds.end()) add(entry->path());
+    }
   return out;
 }
 
@@ -120,18 +126,29 @@ struct ViewSession::Assembled {
   }
 };
 
-ViewSession::ViewSession(fs::path scene, Overrides overrides) : scene_(std::move(scene)), overrides_(std::move(overrides)) {}
+ViewSession::ViewSession(fs::path scene, Overrides overrides) : scene_(std::move(scene)), overrides_(std::move(overrides)), read_{scene_} {}
 
 ViewSession::~ViewSession() = default;
 
 void ViewSession::read_if_saved() {
-  auto saved = saved_files(scene_);
+  const SavedFiles saved = saved_files(read_);
   if (version_ > 0 && saved == saved_) return;
-  saved_ = std::move(saved), ++version_, error_.clear();
+  ++version_, error_.clear();
+  const auto begin = fs::file_time_type::clock::now();
+  FilesNoted noted;
   try {
     assembled_ = std::make_unique<Assembled>(read_scene(scene_, overrides_));
   } catch (const std::exception& e) {
     error_ = e.what();  // the previous content stays on the page
+  }
+  read_ = noted.paths();
+  read_.push_back(scene_);
+  saved_ = saved_files(read_);
+  for (auto& [file, time] : saved_) {  // if one was saved meanwhile, it will be read again
+    if (const auto before = saved.find(file); before != saved.end())
+      time = before->second;
+    else if (time > begin)
+      time = fs::file_time_type::min();
   }
 }
 

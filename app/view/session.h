@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/configuration/moved_by_hand.h"
 #include "framework/mechanism/drawing.h"
@@ -13,7 +14,9 @@
 
 namespace pintle::app {
 
-/// A scene being viewed: read again when a file in its folder is saved, and movable by hand. Answers are JSON, including errors.
+using SavedFiles = std::map<std::filesystem::path, std::filesystem::file_time_type>;
+
+/// A scene being viewed: read again when a file that it reads is saved, and movable by hand. Answers are JSON, including errors.
 /// Thread-safe.
 class ViewSession {
  public:
@@ -36,8 +39,9 @@ class ViewSession {
   std::filesystem::path scene_;
   Overrides overrides_;
   std::mutex one_at_a_time_;
-  long version_ = 0;                                                        ///< of the files and the configuration
-  std::map<std::filesystem::path, std::filesystem::file_time_type> saved_;  ///< files in its folder that the scene may read
+  long version_ = 0;                         ///< of the files and the configuration
+  std::vector<std::filesystem::path> read_;  ///< files that the scene named at the last reading
+  SavedFiles saved_;
   std::string error_;
   std::unique_ptr<Assembled> assembled_;
 };

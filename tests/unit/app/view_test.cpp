@@ -161,6 +161,30 @@ TEST_F(View, SaysThatASceneIsGoneAndShowsItAgainWhenItIsBack) {
   EXPECT_EQ(now(gone["version"])["error"], "");
 }
 
+TEST_F(View, ReadsTheSceneAgainWhenAFileInAnotherFolderIsSaved) {
+  fs::create_directories(folder_.path() / "parts" / "curves");
+  const auto save = [&](const std::string& name, const std::string& text, int seconds) {
+    const fs::path file = folder_.write(name, text);
+    fs::last_write_time(file, fs::last_write_time(scene_) + std::chrono::seconds(seconds));
+  };
+  const std::string drives = "drivers: {motor: {angle: [ground, crank], law: {table: curves/turn.csv}}}\n";
+  const Json first = now();
+  save("scene.yaml", "include: parts/motor.yaml" + std::string(crank), 1);
+  const Json missing = now(first["version"]);
+  EXPECT_NE(missing["error"].get<std::string>().find("motor.yaml"), std::string::npos) << missing["error"];
+  save("parts/motor.yaml", drives, 1);
+  const Json no_table = now(missing["version"]);
+  EXPECT_NE(no_table["error"].get<std::string>().find("turn.csv"), std::string::npos) << no_table["error"];
+  save("parts/curves/turn.csv", "0, 0\n1, 1\n", 1);
+  const Json right = now(no_table["version"]);
+  EXPECT_EQ(right["error"], "");
+  EXPECT_EQ(right["drivers"], Json{"motor"});
+  save("parts/curves/turn.csv", "0, 0\n", 2);
+  const Json short_table = now(right["version"]);
+  EXPECT_NE(short_table["error"], "");
+  EXPECT_EQ(now(short_table["version"]), (Json{{"version", short_table["version"]}}));
+}
+
 TEST_F(View, SlipsOfItsOptionsAreToldWithWhatWasMeant) {
   const Ended end = pintle_test::run(folder_.path() / "slip", {PINTLE_PROGRAM, "view", scene_.string(), "--prot", "80"});
   EXPECT_EQ(end.code, 2);
