@@ -121,7 +121,7 @@ std::string effort_text(const Inverse& found, std::size_t d, const fs::path& out
 /// Writes a page of the results if there are some and it is asked for.
 int ended(const Options& options, const Scene& scene, const Run& run, const fs::path& out) {
   if (options.report && run.status != Status::not_written) {
-    write_report(out, out / "report.html", options.megabytes);
+    write_report(out, out / "report.html", options.megabytes, options.quiet);
     if (!options.quiet && !options.json) std::cout << "  report: " << (out / "report.html").string() << "\n";
   }
   return exit_code(options, scene, run);

@@ -15,6 +15,7 @@
 #include "framework/bodies/mesh_file_warnings.h"
 #include "framework/common/file.h"
 #include "framework/common/text.h"
+#include "framework/common/work_done.h"
 #include "framework/drawing/body_drawing.h"
 #include "framework/output/results.h"
 #include "framework/report/body_report.h"
@@ -98,6 +99,7 @@ void write_shapes(const fs::path& directory, const ElasticBody& e, const ModeTab
     char name[64];
     std::snprintf(name, sizeof name, "%s_%02d", prefix.c_str(), static_cast<int>(i + 1));
     write_shape_animation(directory, name, drawing, t.modes.shapes.col(i), frames);
+    work_done = static_cast<double>(i + 1) / static_cast<double>(t.modes.omega.size());
   }
 }
 
@@ -122,6 +124,7 @@ int modes(const Options& options) {
     const Eigen::MatrixXd& shapes = report.natural.modes.shapes;
     write_text(folder / "drawing.json", body_drawing(e, shapes.leftCols(std::min<Eigen::Index>(most_drawn, shapes.cols()))));
     if (!report.reduced) return;
+    now_doing("writing the modes of the reduced body");
     write_text(folder / "reduced.csv", modes_csv(*report.reduced, report));
     write_shapes(folder, e, *report.reduced, "reduced", frames);
   });

@@ -118,7 +118,6 @@ int equilibrium(const Options& options) {
   now_doing("finding the equilibrium");
   const Equilibrium found = find_equilibrium(scene, model, assembly, at);
 
-  waiting.end();
   now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
     write_equilibrium(folder, scene, model, found);
@@ -131,6 +130,7 @@ int equilibrium(const Options& options) {
     writer.add(draw(model, Drafting(scene, model), found.state, eq));
     writer.finish();
   });
+  waiting.end();
 
   if (options.json)
     std::cout << equilibrium_json(scene, model, found);

@@ -62,8 +62,8 @@ bool write_film(const Drawn& drawn, const FilmPlan& plan) {
   std::vector<double> times;
   for (const FrameFiles& frame : frames) times.push_back(frame.t);
   const std::vector<std::size_t> shown = shown_frames(times, plan);
-  const auto tell = [&](const char* what, std::size_t n) {
-    if (line.due()) line.show(what + std::to_string(n + 1) + " of " + std::to_string(shown.size()));
+  const auto tell = [&](const char* what, std::size_t n, const std::string& left = "") {
+    if (line.due()) line.show(what + std::to_string(n + 1) + " of " + std::to_string(shown.size()) + left);
     return !app::asked_to_stop();
   };
 
@@ -77,10 +77,12 @@ bool write_film(const Drawn& drawn, const FilmPlan& plan) {
   style.even = true;
   FramePicture picture(style, survey, read_frame(frames[shown.front()], drawn.deformation), shown_impacts(drawn, frames[shown.back()]));
   FilmFile film(drawn.file, picture.width(), picture.height(), plan.rate);
+  app::now_doing("drawing the film");
   for (std::size_t k = 0; k < shown.size(); ++k) {
     if (k == 0 || shown[k] != shown[k - 1]) picture.draw(read_frame(frames[shown[k]], drawn.deformation));
     film.add(picture.canvas().pixels());
-    if (!tell("drawing picture ", k)) return false;
+    const auto done = static_cast<double>(k + 1), all = static_cast<double>(shown.size());
+    if (!tell("drawing picture ", k, app::time_left(done, all, app::doing_since()))) return false;
   }
   film.finish();
   if (!drawn.quiet)

@@ -12,6 +12,7 @@
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/bodies/segments.h"
 #include "framework/build/build.h"
+#include "framework/common/work_done.h"
 #include "framework/configuration/assemble.h"
 #include "framework/configuration/equilibrium.h"
 #include "framework/mechanism/drawing.h"
@@ -60,7 +61,8 @@ void write_animations(const fs::path& out, const Scene& scene, const Model& mode
   const Drafting drafting(scene, model);
   Equations eq(model.system);
   Eigen::VectorXd dy(model.system.n_y());
-  for (int k = 0; k < std::min(count, static_cast<int>(lin.modes.size())); ++k) {
+  const int modes = std::min(count, static_cast<int>(lin.modes.size()));
+  for (int k = 0; k < modes; ++k) {
     char name[32];
     std::snprintf(name, sizeof name, "mode_%02d", k + 1);
     FrameWriter writer(out / name);
@@ -70,6 +72,7 @@ void write_animations(const fs::path& out, const Scene& scene, const Model& mode
       Drawing drawing = draw(model, drafting, state, eq);
       drawing.forces.clear();  // forces of the enlarged shape are not forces of the mechanism
       writer.add(drawing);
+      work_done = (k + static_cast<double>(i) / frames) / modes;
     }
     writer.finish();
   }
@@ -133,13 +136,12 @@ int linearize(const Options& options) {
   now_doing("linearizing about the state");
   Linearization lin = linearize(scene, model, start->state, options.at_rest ? Laws::hold : Laws::go_on);
   if (!start->note.empty()) lin.notes.push_back(start->note);
-  waiting.end();
-
   now_doing("writing the results");
   write_whole(options, out, [&](const fs::path& folder) {
     write_linearization(folder, scene, model, lin, options.count);
     if (options.frames > 0) write_animations(folder, scene, model, lin, options.count, options.frames);
   });
+  waiting.end();
   if (options.json) {
     std::cout << linearized_json(scene, lin);
   } else if (!options.quiet) {

@@ -186,7 +186,7 @@ int write_other_forms(const Options& options, const fs::path& out) {
     if (!options.quiet && !options.json) std::cout << "  " << what << ": " << file.string() << "\n";
   };
   if (options.report) {
-    write_report(out, out / "report.html", options.megabytes);
+    write_report(out, out / "report.html", options.megabytes, options.quiet);
     tell("report", out / "report.html");
   }
   if (!options.hdf5) return ok;

@@ -12,6 +12,7 @@
 #include "app/cairo_pen.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/waiting.h"
 #include "app/run_end.h"
 #include "framework/common/file.h"
 #include "framework/common/file_names.h"
@@ -100,10 +101,10 @@ fs::path table_with(const std::vector<fs::path>& tables, std::string& name) {
 }
 
 /// @param evenly  true: at evenly spaced rows, so that columns have the same times; false: the extremes of each interval
-PlottedColumn read_column(const fs::path& table, const std::string& name, bool evenly) {
+PlottedColumn read_column(const fs::path& table, const std::string& name, bool evenly, const WorkShare& work) {
   constexpr std::size_t points = 4000;
   const std::size_t columns = CsvReader(table).header().size();
-  const ReducedTable reduced = reduced_by_column(table, {2 * points * columns, 2 * points}, {name});
+  const ReducedTable reduced = reduced_by_column(table, {2 * points * columns, 2 * points}, {name}, work);
   const auto found_in = [&](const Sheet& sheet) -> std::optional<PlottedColumn> {
     for (std::size_t c = 0; c < sheet.columns.size(); ++c)
       if (sheet.columns[c].name == name) return PlottedColumn{sheet.columns[c], sheet.t, sheet.values[c]};
@@ -120,12 +121,18 @@ PlottedColumn read_column(const fs::path& table, const std::string& name, bool e
 std::vector<Panel> panels_of(const Options& options, bool one_each) {
   const std::vector<fs::path> tables = tables_in(without_slash(options.scene));
   std::string against = options.against.empty() ? "t" : options.against;
-  const PlottedColumn x = read_column(table_with(tables, against), against, true);
+  const Waiting waiting(options.quiet);
+  double read = 0;
+  const auto part = [&read, all = 1.0 + static_cast<double>(options.quantities.size())] {
+    const double before = read++;
+    return WorkShare{before / all, read / all};
+  };
+  const PlottedColumn x = read_column(table_with(tables, against), against, true, part());
   std::vector<Panel> out;
   std::map<std::string, std::size_t> of_unit;
   for (std::string name : options.quantities) {
     const fs::path table = table_with(tables, name);
-    const PlottedColumn y = read_column(table, name, against != "t");
+    const PlottedColumn y = read_column(table, name, against != "t", part());
     if (against != "t" && y.t != x.t)
       throw SceneError("--against " + against + ": is in another table than " + pintle::quoted(name) +
                        ", with other rows; name one of the same");

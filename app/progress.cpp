@@ -206,9 +206,11 @@ std::string time_left(double done, double all, double seconds) {
 }
 
 bool Progress::operator()(double t) {
+  if (!begun_) begun_ = true, from_ = t, begin_ = clock::now();
   if (line_.due()) {
     std::ostringstream s;
-    s << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat << std::setprecision(6) << t << " s";
+    s << std::fixed << std::setprecision(1) << 100 * t / until_ << " %  t = " << std::defaultfloat << std::setprecision(6) << t << " s"
+      << time_left(t - from_, until_ - from_, std::chrono::duration<double>(clock::now() - begin_).count());
     line_.show(s.str());
   }
   return !asked_to_stop();

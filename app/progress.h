@@ -77,14 +77,16 @@ std::string span_text(double seconds);  ///< "8.3 s", "32 s", "5 min 2 s"
 /// ", 32 s left" if `done` of `all` took `seconds`; empty if none is done.
 std::string time_left(double done, double all, double seconds);
 
-/// Progress of a run, by the time reached.
+/// Progress of a run, by the time reached, and the time left at the mean pace so far.
 class Progress {
  public:
   Progress(double until, bool quiet) : until_(until), line_(quiet) {}
   bool operator()(double t);  ///< @returns false: the user wants to stop
 
  private:
-  double until_;
+  double until_, from_ = 0;
+  std::chrono::steady_clock::time_point begin_;
+  bool begun_ = false;
   StatusLine line_;
 };
 

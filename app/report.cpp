@@ -6,6 +6,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_end.h"
+#include "app/waiting.h"
 #include "framework/common/file.h"
 #include "framework/output/results_directory.h"
 #include "framework/report/csv_reader.h"
@@ -16,8 +17,9 @@ namespace pintle::app {
 
 namespace fs = std::filesystem;
 
-void write_report(const fs::path& directory, const fs::path& file, double megabytes) {
+void write_report(const fs::path& directory, const fs::path& file, double megabytes, bool quiet) {
   now_doing("writing the report");
+  const Waiting waiting(quiet);
   write_text(file, report_page(directory, report_limits(1e6 * megabytes)));
 }
 
@@ -33,7 +35,7 @@ int report(const Options& options) {
   if (!why.empty()) throw ResultsError(directory.string() + ": has nothing to show: " + why);
   if (!options.out.empty()) require_file_place(file);
   tell_if_unfinished(directory);
-  write_report(directory, file, options.megabytes);
+  write_report(directory, file, options.megabytes, options.quiet);
   if (!options.quiet)
     std::cout << "  " << file.string() << "  " << number(static_cast<double>(fs::file_size(file)) / 1e6, 3)
               << " MB; open it in a browser\n";

@@ -42,6 +42,12 @@ std::string text_of(const fs::path& file) {
   return out;
 }
 
+double bytes_of(const fs::path& file) {
+  std::error_code error;
+  const auto bytes = fs::file_size(file, error);
+  return error ? 0 : static_cast<double>(bytes);
+}
+
 std::vector<Hdf5Column> columns_of(const std::vector<std::string>& header, const std::vector<bool>& text) {
   std::vector<std::string> names;
   for (const std::string& heading : header) names.push_back(column_name(heading).name);
@@ -97,12 +103,12 @@ class Block {
   std::vector<std::vector<std::string>> texts_;
 };
 
-/// @returns the number of its rows; nothing if it was stopped
+/// Calls `tell` with a table's share of the work, which is read twice. @returns the number of its rows; nothing if it was stopped
 std::optional<std::size_t> convert_table(const fs::path& csv, const std::string& group, Hdf5File& out, const ConversionStep& tell) {
-  const auto told = [&](const char* what, std::size_t row) {
-    return tell(what + csv.filename().string() + ", row " + std::to_string(row));
+  const auto told = [&](const char* what, std::size_t row, double share) {
+    return tell(what + csv.filename().string() + ", row " + std::to_string(row), share);
   };
-  const auto kinds = table_kinds(csv, [&](std::size_t row) { return told("reading ", row); });
+  const auto kinds = table_kinds(csv, [&](std::size_t row, double share) { return told("reading ", row, share / 2); });
   if (!kinds) return {};
   CsvReader in(csv);
   if (in.header().size() != kinds->text.size()) in.fail("the table was changed while it was read");
@@ -115,7 +121,7 @@ std::optional<std::size_t> convert_table(const fs::path& csv, const std::string&
     block.add(fields, in);
     if (!block.full()) continue;
     block.write(table);
-    if (!told("writing ", block.end())) return {};
+    if (!told("writing ", block.end(), (1 + in.share_read()) / 2)) return {};
   }
   block.write(table);
   return kinds->rows;
@@ -135,11 +141,16 @@ ConvertedTables convert_results(const fs::path& directory, const fs::path& file,
   for (const fs::path& description : descriptions) names.push_back(description.filename().string());
   names = link_names(names);
 
+  double all = 0, done_bytes = 0;
+  for (const fs::path& table : tables) all += bytes_of(table);
   ConvertedTables done;
   Hdf5File out(file);
   for (std::size_t k = 0; k < descriptions.size(); ++k) out.add_text(names[tables.size() + k], text_of(descriptions[k]));
   for (std::size_t k = 0; k < tables.size(); ++k) {
-    const auto rows = convert_table(tables[k], names[k], out, tell);
+    const double bytes = bytes_of(tables[k]);
+    const auto rows = convert_table(tables[k], names[k], out,
+                                    [&](const std::string& what, double share) { return tell(what, (done_bytes + share * bytes) / all); });
+    done_bytes += bytes;
     if (!rows) {
       done.whole = false;
       return done;

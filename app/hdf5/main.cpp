@@ -43,8 +43,8 @@ int convert(const fs::path& directory, const fs::path& file, bool quiet) {
   ConvertedTables done;
   {
     StatusLine line(quiet);
-    done = convert_results(directory, file, [&](const std::string& what) {
-      if (line.due()) line.show(what);
+    done = convert_results(directory, file, [&](const std::string& what, double share) {
+      if (line.due()) line.show(what + time_left(share, 1, doing_since()));
       return !asked_to_stop();
     });
   }

@@ -54,7 +54,7 @@ std::optional<TableKinds> table_kinds(const std::filesystem::path& file, const R
   for (std::vector<std::string> fields; in.next(fields); ++out.rows) {
     for (std::size_t c = 0; c < fields.size(); ++c)
       if (!out.text[c] && !number_in(fields[c])) out.text[c] = true;
-    if (out.rows % often == 0 && !tell(out.rows)) return {};
+    if (out.rows % often == 0 && !tell(out.rows, in.share_read())) return {};
   }
   return out;
 }

@@ -9,8 +9,8 @@
 
 namespace pintle::app {
 
-/// Called with the number of rows read. @returns false: stop
-using RowsRead = std::function<bool(std::size_t)>;
+/// Called with the number of rows read and the share of the file. @returns false: stop
+using RowsRead = std::function<bool(std::size_t, double)>;
 
 /// Result of the first reading of a table.
 struct TableKinds {

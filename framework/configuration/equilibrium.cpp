@@ -10,6 +10,7 @@
 #include "framework/common/some_of.h"
 #include "framework/common/stop_point.h"
 #include "framework/common/text.h"
+#include "framework/common/work_done.h"
 #include "framework/configuration/own_rest.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/dynamics/equations/energy.h"
@@ -137,12 +138,14 @@ bool lead(const System& system, double to, State& state, double& reached) {
     if (closed && ((y - state.y).head(held.n()).cwiseQuotient(held.scale)).lpNorm<Eigen::Infinity>() <= 0.1) {
       state.y = y;
       reached = next;
+      work_done = reached / to;
       step *= 1.5;
       continue;
     }
     step /= 2;
     if (std::abs(step) < 1e-7 * std::abs(to)) return false;
   }
+  work_done = -1;
   return true;
 }
 

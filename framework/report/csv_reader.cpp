@@ -49,6 +49,8 @@ std::ifstream opened(const std::filesystem::path& file) {
 }  // namespace
 
 CsvReader::CsvReader(std::filesystem::path file) : file_(std::move(file)), in_(opened(file_)) {
+  std::error_code unknown;
+  if (const auto bytes = std::filesystem::file_size(file_, unknown); !unknown) bytes_ = static_cast<double>(bytes);
   read_record();
   if (record_.starts_with("\xef\xbb\xbf")) record_.erase(0, 3);  // byte-order mark
   split_record(record_, header_);
@@ -111,6 +113,11 @@ bool CsvReader::next(std::vector<double>& row) {
   }
   require_count(row.size());
   return true;
+}
+
+double CsvReader::share_read() {
+  const auto at = static_cast<double>(in_.tellg());  // -1 at the end
+  return at >= 0 && at < bytes_ ? at / bytes_ : 1;
 }
 
 std::size_t count_rows(const std::filesystem::path& file) {

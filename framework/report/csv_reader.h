@@ -23,6 +23,7 @@ class CsvReader {
   bool next(std::vector<std::string>& fields);
   /// The same as numbers; an empty field is NaN.
   bool next(std::vector<double>& row);
+  double share_read();  ///< of the file, 0 to 1
   /// @throws ResultsError  always: about the last record read
   [[noreturn]] void fail(const std::string& why) const;
 
@@ -32,6 +33,7 @@ class CsvReader {
 
   std::filesystem::path file_;
   std::ifstream in_;
+  double bytes_ = 0;
   std::vector<std::string> header_;
   std::string record_;
   long line_ = 0, lines_ = 0;  ///< first line of the record; lines read

@@ -152,12 +152,23 @@ std::string title_of(const Scene& scene, const fs::path& directory) {
   return scene.title.empty() ? directory.filename().string() : scene.title;
 }
 
+/// At least 1.
+double bytes_of(const fs::path& file) {
+  std::error_code unknown;
+  const auto bytes = fs::file_size(file, unknown);
+  return unknown || bytes == 0 ? 1 : static_cast<double>(bytes);
+}
+
 std::string motion_page(const Description& results, const fs::path& directory, const ReportLimits& limits) {
   const Scene scene = scene_of(results);
   const Model model = build(scene);
   const bool moves = results.question != "statics";
   const fs::path file = directory / (moves ? "trajectory.csv" : "statics.csv");
-  const ReducedTable trajectory = moves ? reduced_by_column(file, limits.trajectory, drawn_columns(model)) : single_row(file);
+  const fs::path ledger = directory / "ledger.csv";
+  const bool balanced = results.question == "run" || fs::exists(ledger);
+  const double trajectory_work = balanced ? 1 / (1 + bytes_of(ledger) / bytes_of(file)) : 1;
+  const ReducedTable trajectory =
+      moves ? reduced_by_column(file, limits.trajectory, drawn_columns(model), {0, trajectory_work}) : single_row(file);
   require_columns(file, trajectory, pose_columns(model));
   const std::string title = title_of(scene, directory);
   Json run = facts(results, limits.text);
@@ -166,8 +177,8 @@ std::string motion_page(const Description& results, const fs::path& directory, c
   Json out{
       {"title", title}, {"run", run}, {"model", drawn_model_json(scene, model, limits.meshes)}, {"trajectory", table_json(trajectory)}};
   if (!moves) out["tables"] = tables_json(results, limits.rows);
-  if (results.question == "run" || fs::exists(directory / "ledger.csv")) {
-    out["ledger"] = table_json(reduced_by_row(directory / "ledger.csv", limits.ledger));
+  if (balanced) {
+    out["ledger"] = table_json(reduced_by_row(ledger, limits.ledger, {trajectory_work, 1}));
     out["events"] = events_json(directory / "events.csv", limits.events);
   }
   if (fs::exists(directory / "actions.csv")) out["actions"] = actions_json(directory / "actions.csv", limits.events);

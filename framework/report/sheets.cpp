@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "framework/common/work_done.h"
+
 namespace pintle {
 
 namespace {
@@ -93,11 +95,19 @@ class Extremes {
   bool is_empty_ = false, begun_ = false;
 };
 
-ReducedTable whole_table(CsvReader& file) {
+/// Reads the next row. @returns false at the end
+bool next(CsvReader& file, Row& row, std::size_t number, const WorkShare& work) {
+  constexpr std::size_t often = 4096;
+  const bool more = file.next(row);
+  if (!more || number % often == 0) work_done = work.begin + (work.end - work.begin) * (more ? file.share_read() : 1);
+  return more;
+}
+
+ReducedTable whole_table(CsvReader& file, const WorkShare& work) {
   ReducedTable out;
   const auto columns = all_but_time(file.header().size());
   out.sheets.push_back(sheet_of(file.header(), columns));
-  for (Row row; file.next(row); ++out.rows) append(out.sheets[0], row, columns);
+  for (Row row; next(file, row, out.rows, work); ++out.rows) append(out.sheets[0], row, columns);
   return out;
 }
 
@@ -137,11 +147,12 @@ class ExtremeRows {
 
 }  // namespace
 
-ReducedTable reduced_by_column(const std::filesystem::path& path, const SheetLimits& limits, const std::vector<std::string>& drawn) {
+ReducedTable reduced_by_column(const std::filesystem::path& path, const SheetLimits& limits, const std::vector<std::string>& drawn,
+                               const WorkShare& work) {
   const std::size_t rows = count_rows(path);
   CsvReader file(path);
   const std::size_t columns = file.header().size();
-  if (rows * columns <= limits.values) return whole_table(file);
+  if (rows * columns <= limits.values) return whole_table(file, work);
 
   ReducedTable out;
   out.whole = false;
@@ -154,7 +165,7 @@ ReducedTable reduced_by_column(const std::filesystem::path& path, const SheetLim
   const Stretches pauses(rows, std::max<std::size_t>(limits.poses / (posed.size() + 1), 2));
 
   Row row;
-  for (; file.next(row); ++out.rows) {
+  for (; next(file, row, out.rows, work); ++out.rows) {
     for (std::size_t c = 1; c < columns; ++c) {
       extremes[c].add(row[0], row[c]);
       if (stretches.ends_after(out.rows)) extremes[c].end_stretch(out.sheets[c - 1]);
@@ -166,11 +177,11 @@ ReducedTable reduced_by_column(const std::filesystem::path& path, const SheetLim
   return out;
 }
 
-ReducedTable reduced_by_row(const std::filesystem::path& path, std::size_t most_values) {
+ReducedTable reduced_by_row(const std::filesystem::path& path, std::size_t most_values, const WorkShare& work) {
   const std::size_t rows = count_rows(path);
   CsvReader file(path);
   const std::size_t columns = file.header().size();
-  if (rows * columns <= most_values) return whole_table(file);
+  if (rows * columns <= most_values) return whole_table(file, work);
 
   ReducedTable out;
   out.whole = false;
@@ -182,7 +193,7 @@ ReducedTable reduced_by_row(const std::filesystem::path& path, std::size_t most_
     for (const Row& row : extremes.end_stretch()) append(sheet, row, kept);
   };
   Row row, last;
-  for (; file.next(row); ++out.rows, last = row) {
+  for (; next(file, row, out.rows, work); ++out.rows, last = row) {
     if (out.rows == 0)
       append(sheet, row, kept);
     else

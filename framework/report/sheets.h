@@ -28,12 +28,18 @@ struct SheetLimits {
   std::size_t values = 220'000, poses = 60'000;
 };
 
+/// Part of the work that reading a file is, for work_done.
+struct WorkShare {
+  double begin = 0, end = 1;
+};
+
 /// Reads a .csv file whose first column is the time.
 /// @param drawn  names of columns, without units, for the positions drawn   @throws ResultsError
-ReducedTable reduced_by_column(const std::filesystem::path&, const SheetLimits&, const std::vector<std::string>& drawn);
+ReducedTable reduced_by_column(const std::filesystem::path&, const SheetLimits&, const std::vector<std::string>& drawn,
+                               const WorkShare& = {});
 
 /// The same in one sheet, of the complete rows in which a column has its least or greatest value of a stretch.
-ReducedTable reduced_by_row(const std::filesystem::path&, std::size_t most_values);
+ReducedTable reduced_by_row(const std::filesystem::path&, std::size_t most_values, const WorkShare& = {});
 
 /// A file with the columns quantity and value, as a table of one row. @throws ResultsError
 ReducedTable single_row(const std::filesystem::path&);

@@ -15,6 +15,8 @@ import time
 import unittest
 from pathlib import Path
 
+from terminal import interrupted
+
 pintle = os.path.realpath(sys.argv.pop(1))
 try:
     import h5py
@@ -311,13 +313,9 @@ class Hdf5(unittest.TestCase):
 
     def test_a_stop_leaves_no_file(self):
         folder = self.folder({"t.csv": "t [s],x [m]\n" + "1,0.123456789012345\n" * 2_000_000})
-        process = subprocess.Popen([pintle, "hdf5", folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        while process.poll() is None and not list(folder.glob("results.h5.part-*")):
-            time.sleep(0.002)
-        process.send_signal(signal.SIGINT)
-        _, said = process.communicate()
-        self.assertEqual(process.returncode, 6, said)
-        self.assertIn("stopped by the user (Ctrl-C); there is no ", said)
+        said, code = interrupted([pintle, "hdf5", folder], folder, b"t.csv, row ", b" left")
+        self.assertEqual(code, 6, said)
+        self.assertIn(b"stopped by the user (Ctrl-C); there is no ", said)
         self.assertEqual([f.name for f in folder.iterdir()], ["t.csv"])
 
 

@@ -300,6 +300,18 @@ class Manners(unittest.TestCase):
         self.assertEqual(code, 6)
         self.assertIn(b"stopped by the user (Ctrl-C) while running to the state; there are no results yet", said)
 
+    def test_who_waits_is_told_the_time_left(self):
+        self.assertEqual(self.say("run", "swing.pintle.yaml", "--out", "out", "-q").returncode, 0)
+        (self.place / "out" / "ledger.csv").unlink()
+        os.mkfifo(self.place / "out" / "ledger.csv")  # the program waits for it
+        for words, awaited in (("run swing.pintle.yaml --set run.until=1e6s --set output.every=1e4s --out long", (b" %  t = ", b" left")),
+                               ("linearize swing.pintle.yaml --frames 100000", (b"writing the results: ", b" %, about ", b" left")),
+                               ("plot out kinetic", (b"reading the results: ", b" 50 %, about ")),
+                               ("report out", (b"writing the report: ", b" %, about "))):
+            with self.subTest(words):
+                _, code = interrupted([pintle, *words.split()], self.place, *awaited)
+                self.assertEqual(code, 6)
+
     def test_a_state_after_the_end_of_the_run(self):
         told = "warning: --at 0.2 s: the run ends at 0.1 s (run.until); it is continued to the state\n"
         self.assertIn(told, self.say("linearize", "swing.pintle.yaml", "--at", "0.2 s").stderr)

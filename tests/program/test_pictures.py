@@ -14,6 +14,8 @@ import unittest
 import zlib
 from pathlib import Path
 
+from terminal import interrupted
+
 pintle = os.path.realpath(sys.argv.pop(1))
 has_pictures = (Path(pintle).parent / "pintle-picture").exists()
 load_colour = (153, 64, 191)
@@ -123,6 +125,11 @@ class Pictures(unittest.TestCase):
         self.assertIn("rest has 1 frame, number 0; asked for 3", self.say("picture", "rest", "a.png", "--frame", "3").stderr)
         if shutil.which("ffmpeg"):
             self.assertIn("  1 picture of ", self.say("film", "run", "a.mp4", "--to", "0").stdout)
+
+    @unittest.skipUnless(has_pictures and shutil.which("ffmpeg"), "the program that draws was not built, or there is no ffmpeg")
+    def test_a_film_tells_the_time_left(self):
+        self.run_of(pushed.format(x=1, y=1).replace("frames: 2", "frames: 1000"), "run")
+        self.assertEqual(interrupted([pintle, "film", "run", "a.mp4"], self.place, b"drawing picture ", b" left")[1], 6)
 
     @unittest.skipUnless(has_pictures, "the program that draws was not built")
     def test_names_keep_off_the_time(self):
