@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
+#include <string>
 #include <string_view>
 
+#include "framework/common/words.h"
 #include "framework/study/measures/measure_words.h"
 
 /// The words of measures; if one word begins with another, the longer one comes first.
@@ -117,6 +120,21 @@ inline constexpr std::array force_words{ForceWord{"force x", "x"},
                                         ForceWord{"driving force", ""},
                                         ForceWord{"force", ""}};
 
+using Phrases = std::initializer_list<const char*>;
+inline constexpr Phrases torque_words{"driving torque", "torque", "moment", "couple"};
+inline constexpr Phrases eccentricity_words{"eccentricity"};
+inline constexpr Phrases depth_words{"depth", "penetration"};
+inline constexpr Phrases impact_words{"number of impacts", "number of contacts", "impacts", "impact count", "count of impacts"};
+inline constexpr Phrases flight_words{"longest free flight", "longest flight"};
+inline constexpr Phrases contact_time_words{"time in contact", "contact time"};
+inline constexpr Phrases work_words{"work done", "work put in", "work in", "work"};
+inline constexpr Phrases loss_words{"energy lost",       "lost energy",    "energy loss", "energy dissipated",
+                                    "dissipated energy", "loss of energy", "losses"};
+inline constexpr Phrases stress_words{"von mises stress", "stress"};
+inline constexpr Phrases displacement_words{"elastic displacement", "displacement"};
+inline constexpr Phrases deflection_words{"deflection"};
+inline constexpr Phrases distance_words{"distance between", "distance from"};
+
 /// Causes of energy loss.
 struct AccountWord {
   const char *words, *column;
@@ -141,5 +159,12 @@ inline constexpr std::array energy_words{EnergyWord{"kinetic energy", "kinetic"}
                                          EnergyWord{"stored energy", "stored"},           EnergyWord{"energy stored", "stored"},
                                          EnergyWord{"mechanical energy", "stored"},       EnergyWord{"total energy", "stored"},
                                          EnergyWord{"unexplained energy", "unexplained"}, EnergyWord{"energy unexplained", "unexplained"}};
+
+/// All words for what can be measured, and for which of its values if `statistics`.
+Names what_phrases(bool statistics);
+
+/// The text with its first words replaced by the nearest candidate of as many words: "paek force at pin" becomes "peak force at pin". Of
+/// candidates of more and of fewer words the longer one. Empty if none is near, or it begins so already.
+std::string with_nearest_beginning(std::string_view text, const Names& candidates);
 
 }  // namespace pintle

@@ -32,6 +32,8 @@ class Reading {
     if (!known) {
       words_.back_to(begin);
       const bool formula = words_.rest().find('.') != std::string::npos || looks_like_a_formula(words_.rest());
+      const std::string meant = with_nearest_beginning(words_.rest(), what_phrases(asked_.statistic == Statistic::none));
+      if (!meant.empty()) fail("\"" + words_.rest() + "\" cannot be measured. Did you mean \"" + meant + "\"?");
       fail("\"" + words_.rest() +
            "\" cannot be measured; write for example peak force at JOINT, x of BODY.POINT at 0.05 s, "
            "rms torque of DRIVER after 10 ms, energy lost, or an expression such as coil.length - 3 mm (docs/studies.md)." +
@@ -205,24 +207,21 @@ class Reading {
   bool read_force() {
     for (const ForceWord& c : force_words)
       if (words_.take(c.words)) return is(What::force, "N", c.part, need("joint, driver or force", measurables_.actors));
-    if (!words_.take_any({"driving torque", "torque", "moment", "couple"}).empty())
-      return is(What::torque, "N m", "", need("joint, driver or force", measurables_.actors));
+    if (!words_.take_any(torque_words).empty()) return is(What::torque, "N m", "", need("joint, driver or force", measurables_.actors));
     return false;
   }
 
   bool read_contact() {
-    if (words_.take("eccentricity")) return is(What::eccentricity, "m", "", need("joint", measurables_.joints));
-    if (!words_.take_any({"depth", "penetration"}).empty()) return is(What::depth, "m", "", need("joint or contact", measurables_.walls));
-    if (!words_.take_any({"number of impacts", "number of contacts", "impacts", "impact count", "count of impacts"}).empty())
-      return is(What::impacts, "", "", may_have(measurables_.walls));
-    if (!words_.take_any({"longest free flight", "longest flight"}).empty() ||
-        (asked_.statistic != Statistic::none && !words_.take_any({"free flight"}).empty())) {
+    if (!words_.take_any(eccentricity_words).empty()) return is(What::eccentricity, "m", "", need("joint", measurables_.joints));
+    if (!words_.take_any(depth_words).empty()) return is(What::depth, "m", "", need("joint or contact", measurables_.walls));
+    if (!words_.take_any(impact_words).empty()) return is(What::impacts, "", "", may_have(measurables_.walls));
+    if (!words_.take_any(flight_words).empty() || (asked_.statistic != Statistic::none && !words_.take_any({"free flight"}).empty())) {
       if (asked_.statistic != Statistic::none && asked_.statistic != Statistic::greatest && asked_.statistic != Statistic::peak)
         fail("only the longest free flight is known; write longest free flight");
       asked_.statistic = Statistic::none;
       return is(What::free_flight, "s", "", may_have(measurables_.walls));
     }
-    if (!words_.take_any({"time in contact", "contact time"}).empty()) return is(What::contact_time, "s", "", may_have(measurables_.walls));
+    if (!words_.take_any(contact_time_words).empty()) return is(What::contact_time, "s", "", may_have(measurables_.walls));
     return false;
   }
 
@@ -234,15 +233,13 @@ class Reading {
   }
 
   bool read_lost() {
-    if (!words_.take_any({"work done", "work put in", "work in", "work"}).empty()) {
+    if (!words_.take_any(work_words).empty()) {
       Names workers = measurables_.drivers;
       workers.insert(workers.end(), measurables_.loads.begin(), measurables_.loads.end());
       return is(What::work, "J", "", words_.take_any({"of", "by", "in"}).empty() ? "" : need("driver or force", workers));
     }
     if (words_.take("scheme.lost to numerical dissipation")) return is(What::lost, "J", "numerical dissipation");
-    if (words_.take_any({"energy lost", "lost energy", "energy loss", "energy dissipated", "dissipated energy", "loss of energy", "losses"})
-            .empty())
-      return false;
+    if (words_.take_any(loss_words).empty()) return false;
     Names losers = measurables_.actors;
     losers.insert(losers.end(), measurables_.bodies.begin(), measurables_.bodies.end());
     is(What::lost, "J");
@@ -259,17 +256,16 @@ class Reading {
   }
 
   bool read_elastic() {
-    if (!words_.take_any({"von mises stress", "stress"}).empty()) return is(What::stress, "Pa", "", need("point", measurables_.points));
-    if (!words_.take_any({"elastic displacement", "displacement"}).empty())
-      return is(What::displacement, "m", "", need("point", measurables_.points));
-    if (words_.take("deflection")) return is(What::deflection, "m", "", need("body", measurables_.bodies));
+    if (!words_.take_any(stress_words).empty()) return is(What::stress, "Pa", "", need("point", measurables_.points));
+    if (!words_.take_any(displacement_words).empty()) return is(What::displacement, "m", "", need("point", measurables_.points));
+    if (!words_.take_any(deflection_words).empty()) return is(What::deflection, "m", "", need("body", measurables_.bodies));
     return false;
   }
 
   bool read_motion() {
     Names all = measurables_.bodies;
     all.insert(all.end(), measurables_.points.begin(), measurables_.points.end());
-    if (words_.take("distance between") || words_.take("distance from")) {
+    if (!words_.take_any(distance_words).empty()) {
       is(What::distance, "m", "", need("body or point", all));
       words_.take_any({"and", "to"});
       asked_.other = need("body or point", all);

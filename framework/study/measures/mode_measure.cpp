@@ -10,6 +10,7 @@
 #include "framework/common/nearest.h"
 #include "framework/common/words.h"
 #include "framework/scene/error.h"
+#include "framework/study/measures/measure_vocabulary.h"
 
 namespace pintle {
 
@@ -71,7 +72,14 @@ AskedMode read_mode_measure(const Measure& m, const Scene& scene) {
   } else if (known && !words.done()) {
     known = false;
   }
-  if (!known) fail_words(m, scene, "\"" + m.words + "\" is not a result of " + (of_body ? "modes" : "linearize") + "; " + remedy);
+  if (!known) {
+    Names parts;
+    for (const PartWord& p : part_words) parts.emplace_back(p.words);
+    const std::string meant = with_nearest_beginning(m.words, parts);
+    fail_words(m, scene,
+               "\"" + m.words + "\" is not a result of " + (of_body ? "modes" : "linearize") +
+                   (meant.empty() ? "; " + remedy : ". Did you mean \"" + meant + "\"?"));
+  }
   if (of_body && out.part != ModePart::frequency && out.part != ModePart::natural && out.part != ModePart::damping)
     fail_words(m, scene, "the modes of one body have only a frequency and a damping ratio; " + remedy);
   return out;

@@ -285,6 +285,10 @@ TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
            {"peak force", {"does not say of which joint"}},
            {"peak force at gudgeon pin at 1 ms", {"an instant has one value"}},
            {"wobble of crank", {"\"wobble of crank\" cannot be measured", "peak force at JOINT"}},
+           {"paek force at gudgeon pin after 1 ms", {"Did you mean \"peak force at gudgeon pin after 1 ms\"?"}},
+           {"peak foce at gudgeon pin", {"\"foce at gudgeon pin\" cannot be measured. Did you mean \"force at gudgeon pin\"?"}},
+           {"rms angular veloctiy of crank", {"Did you mean \"angular velocity of crank\"?"}},
+           {"final enrgy lost to friction", {"Did you mean \"energy lost to friction\"?"}},
            {"x of slider at 3 kg", {"a mass [kg]", "after 10 ms"}},
            {"x of slider at noon", {"noon"}},
            {"x of slider someday", {"\"someday\" is not understood"}},
@@ -302,6 +306,9 @@ TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
     EXPECT_TRUE(said.starts_with("study.yaml:7: measure.name: ")) << said;
     pintle_test::expect_says(said, b.says);
   }
+  Measure mode{"name", "natural frequncy of mode 1"};
+  mode.question.analysis = Analysis::linearize;
+  pintle_test::expect_says(pintle_test::refusal_by([&] { validate({mode}, scene); }), {"Did you mean \"natural frequency of mode 1\"?"});
   EXPECT_THROW(validate({{"late", "x of slider at 51 ms"}}, scene), SceneError);
   EXPECT_NO_THROW(validate({{"in time", "x of slider at 50 ms"}}, scene));
 }
