@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -307,9 +308,9 @@ class Builder {
   }
 
   void validate_output() const {
-    constexpr double most = 1e7;
+    constexpr double most = 1 / std::numeric_limits<double>::epsilon();  // the times of adjacent rows differ
     if (scene_.output.every > 0 && scene_.run.until / scene_.output.every > most)
-      wrong(scene_.output.place, "`every` gives more than ten million rows; increase it, or decrease run.until");
+      wrong(scene_.output.place, "`every` is less than the rounding of the times in the run; increase it, or decrease run.until");
     if (scene_.output.frames == 1) wrong(scene_.output.place, "one frame is not an animation; write 0, or at least 2");
   }
 

@@ -184,8 +184,8 @@ Axis output_interval() {
             {}};
   for (const double every : {1e-5, 1e-3, 0.3, 2.0})
     axis.cases.push_back({every, printed("%g s", every), "", End::finished, "", [every] { return as_a_pendulum({.every = every}, 1e-6); }});
-  for (const double every : {1e-300, 1e-12})
-    axis.cases.push_back(past(every, printed("%g s", every), "", End::rejected, "ten million rows", text(Rod{.every = every})));
+  axis.cases.push_back(past(1e-300, "1e-300 s", "", End::rejected, "less than the rounding of the times", text(Rod{.every = 1e-300})));
+  axis.cases.push_back(past(1e-12, "1e-12 s", "", End::rejected, "ten million rows", text(Rod{.every = 1e-12})));
   for (const double every : {2.5, 1e300})
     axis.cases.push_back(past(every, printed("%g s", every), "", End::rejected, "longer than the run", text(Rod{.every = every})));
   return axis;

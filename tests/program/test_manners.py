@@ -312,6 +312,14 @@ class Manners(unittest.TestCase):
                 _, code = interrupted([pintle, *words.split()], self.place, *awaited)
                 self.assertEqual(code, 6)
 
+    def test_rows_are_limited_by_the_disk_alone(self):
+        (self.place / "driven.yaml").write_text(pendulum + "drivers: {motor: {angle: [ground, rod], law: 1 rad/s*t}}\n")
+        for command, scene in (("run", "swing.pintle.yaml"), ("kinematics", "driven.yaml")):
+            with self.subTest(command):  # 2e7 rows
+                _, code = interrupted([pintle, command, scene, "--set", "output.every=5 ns"], self.place, b"t = ")
+                self.assertEqual(code, 6)
+        self.assertIn("`every` is less than the rounding of the times", self.say("run", "swing.pintle.yaml", "--set", "output.every=1e-300").stderr)
+
     def test_a_state_after_the_end_of_the_run(self):
         told = "warning: --at 0.2 s: the run ends at 0.1 s (run.until); it is continued to the state\n"
         self.assertIn(told, self.say("linearize", "swing.pintle.yaml", "--at", "0.2 s").stderr)

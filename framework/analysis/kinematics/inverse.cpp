@@ -90,12 +90,12 @@ void add_efforts(const System& system, double t, const Equations& eq, std::vecto
   }
 }
 
-// The number of rows is doubled until a spline through them is accurate.
+// The number of rows is doubled until a spline through them is accurate. They are kept in memory, so not all of very many.
 std::vector<DriverEffort> find_efforts(const Model& model, const Assembly& assembly, std::size_t first, double until) {
   constexpr double enough = 1e-9, smooth = 0.3;
   constexpr std::size_t most = 32768;
   std::vector<double> before(driver_joints(model.system).size(), std::numeric_limits<double>::infinity());
-  for (std::size_t n = 2 * std::max<std::size_t>(first, 64);; n *= 2) {
+  for (std::size_t n = 2 * std::clamp<std::size_t>(first, 64, 5'000'000);; n *= 2) {
     std::vector<DriverEffort> out = named_efforts(model.system);
     Forces forces(model.system, assembly.start);
     for (std::size_t k = 0; k <= n; ++k) {

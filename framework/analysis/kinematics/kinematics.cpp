@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "framework/analysis/simulate/end_short.h"
+#include "framework/analysis/simulate/simulation.h"
 #include "framework/common/dense.h"
 #include "framework/common/processor_time.h"
 #include "framework/common/some_of.h"
@@ -26,24 +27,6 @@ std::vector<std::string> driver_names(const System& system) {
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     if (is_driver(system.joints[k])) out.push_back(system.joint_names[k]);
   return out;
-}
-
-std::vector<double> even_times(double interval, double until) {
-  const auto n = static_cast<long>(std::ceil(until / interval - 1e-9));
-  std::vector<double> out;
-  for (long k = 0; k < n; ++k) out.push_back(static_cast<double>(k) * interval);
-  out.push_back(until);
-  return out;
-}
-
-/// Times k·every up to `until`, the last being `until` itself; every = until/1000 if it is 0.
-std::vector<double> output_times(const Scene& scene) {
-  return even_times(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until);
-}
-
-/// Times of the frames; empty without an animation.
-std::vector<double> frame_times(const Scene& scene) {
-  return scene.output.frames > 1 ? even_times(scene.run.until / (scene.output.frames - 1), scene.run.until) : std::vector<double>{};
 }
 
 }  // namespace
@@ -197,14 +180,16 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
   const double begin = processor_time();
   double drawing = 0;
   run.trajectory = trajectory_table(told);
-  const std::vector<double> outputs = output_times(scene), frames = frame_times(scene);  // visited even if not drawn
-  std::size_t o = 0, f = 0;
+  require_few_rows(scene, listeners);
+  const double until = scene.run.until;
+  Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
+  Clock frames(scene.output.frames > 1 ? until / (scene.output.frames - 1) : 0, until);  // visited even if not drawn
   bool going = motion.failure().empty();
   double reached = motion.state().t;
   const auto steps = [&] {
-    while (going && (o < outputs.size() || f < frames.size())) {
-      const double t = o == outputs.size() ? frames[f] : f == frames.size() ? outputs[o] : std::min(outputs[o], frames[f]);
-      if (listeners.progress && o % 64 == 0 && !listeners.progress(t)) {
+    for (long k = 0; going && (outputs.due(until) || frames.due(until)); ++k) {
+      const double t = !outputs.due(until) ? frames.next() : !frames.due(until) ? outputs.next() : std::min(outputs.next(), frames.next());
+      if (listeners.progress && k % 64 == 0 && !listeners.progress(t)) {
         run.status = Status::interrupted;
         run.reason = "stopped by the user";
         break;
@@ -212,18 +197,18 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
       going = advance(t);
       if (!going) break;
       reached = t;
-      if (o < outputs.size() && outputs[o] == t) {
-        record(told, motion.state(), motion.equations(), run.trajectory), ++o;
+      if (outputs.due(t)) {
+        record(told, motion.state(), motion.equations(), run.trajectory), outputs.tick();
         warn_of_signals(scene, told, motion.state(), run.trajectory, run.warnings);
         if (listeners.rows) {
           listeners.rows(run.trajectory, run.ledger, run.impacts, run.happenings);
           run.trajectory.data.clear();
         }
       }
-      if (f < frames.size() && frames[f] == t) {
+      if (frames.due(t)) {
         const double before = processor_time();
         if (listeners.frame) listeners.frame(motion.state(), motion.equations());
-        ++f;
+        frames.tick();
         drawing += processor_time() - before;
       }
     }

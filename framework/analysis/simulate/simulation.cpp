@@ -11,6 +11,7 @@
 #include "framework/common/worse.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/dynamics/model/signal_values.h"
+#include "framework/scene/error.h"
 
 namespace pintle {
 
@@ -20,6 +21,15 @@ Clock::Clock(double interval, double until) : interval_(interval), until_(until)
 
 void Clock::pass(double t) {
   while (due(t)) tick();
+}
+
+void require_few_rows(const Scene& scene, const Listeners& listeners) {
+  constexpr double most = 1e7;
+  if (listeners.rows || !(scene.output.every > 0 && scene.run.until / scene.output.every > most)) return;
+  throw SceneError(
+      scene.file, scene.output.place,
+      "`every` gives more than ten million rows, which are kept in memory here (pintle run writes any number); increase it, or "
+      "decrease run.until");
 }
 
 RowFigures::RowFigures(const System& system, Run& run)
@@ -105,6 +115,7 @@ Simulation::Simulation(const Scene& scene, const Model& model, const Assembly& a
       slow_(system_),
       undecided_(system_),
       from_(from) {
+  require_few_rows(scene, listeners);
   if (from) go_on(*from);
   states_.pass(integrator_.state().t);
   countable_ = all_finite(energies(system_, integrator_.state(), integrator_.equations()));
@@ -192,11 +203,14 @@ Run Simulation::finish() {
 
 /// @returns false if the run cannot continue
 bool Simulation::step(double until) {
-  if (listeners_.progress && integrator_.counts().steps % 64 == 0 && !listeners_.progress(integrator_.state().t)) {
-    end(Status::interrupted, "stopped by the user");
-    return true;
-  }
+  if (integrator_.counts().steps % 64 == 0 && is_stopped(integrator_.state().t)) return true;
   return integrator_.advance(until) && after_step();
+}
+
+bool Simulation::is_stopped(double t) {
+  if (!listeners_.progress || listeners_.progress(t)) return false;
+  end(Status::interrupted, "stopped by the user");
+  return true;
 }
 
 /// Output due by the end of a step, or of an event after the last step. @returns false if the run cannot continue
@@ -217,7 +231,8 @@ bool Simulation::after_step() {
 
 /// All output due up to the present step's end. @returns false if an output cannot be evaluated
 bool Simulation::report() {
-  while (outputs_.due(integrator_.state().t)) {
+  for (long rows = 1; outputs_.due(integrator_.state().t); ++rows) {
+    if (rows % 1024 == 0 && is_stopped(outputs_.next())) return true;
     if (!integrator_.sample(asked_ = outputs_.next(), sampled_)) return false;
     book(sampled_);
     monitor_.see(sampled_, integrator_.sampled());

@@ -27,6 +27,9 @@ class Clock {
   long k_ = 0, last_ = -1;
 };
 
+/// @throws SceneError  the scene asks for more rows than are kept in memory, and no listener takes them
+void require_few_rows(const Scene&, const Listeners&);
+
 /// Data kept from the last row of each table, even if a listener takes the rows.
 class RowFigures {
  public:
@@ -90,6 +93,7 @@ class Simulation {
   bool advance(double t, bool to_event);
   bool goes_on() const { return going_ && run_.status == Status::finished && integrator_.ended().empty(); }
   bool step(double until);
+  bool is_stopped(double t);  ///< by the listener, told the progress
   bool after_step();
   bool report();
   void add_row_here();
