@@ -282,8 +282,11 @@ bool has_rigid_contacts(const System& system) {
 
 std::string damped_text(const RateSpectrum& s) { return s.most_damped.what + " (" + number_text(s.most_damped.decay, 2) + " 1/s)"; }
 
-std::string reason_of(const RateSpectrum& s, const Demand& d, bool rigid) {
-  std::string why = "Dormand and Prince's pair needs about " + number_text(std::max(d.stability, d.accuracy), 2) + " steps a second";
+std::string reason_of(const RateSpectrum& s, const Demand& d, const Scheme& scheme, bool rigid) {
+  const std::string low = number_text(std::max(d.stability, d.accuracy), 2), high = number_text(d.high, 2);
+  std::string why = scheme.tableau == find_tableau("verner87")
+                        ? "Verner's pair needs about " + high + " steps a second for its accuracy, Dormand and Prince's pair about " + low
+                        : "Dormand and Prince's pair needs about " + low + " steps a second";
   if (d.stability > d.accuracy) {
     const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
     why +=
@@ -301,7 +304,7 @@ void choose(const Scene& scene, const System& system, const RateSpectrum& s, Sch
       !rigid && !states_alone && std::max(d.stability, d.accuracy) > dearer * d.implicit && scene.run.constraints != "partitioning";
   if (!is_implicit) scheme.tableau = automatic_explicit(scene, s, d);
   scheme.reason = name(scheme) + ", chosen because " +
-                  (states_alone ? "only steps show how fast the states of the scene change" : reason_of(s, d, rigid));
+                  (states_alone ? "only steps show how fast the states of the scene change" : reason_of(s, d, scheme, rigid));
   if (is_implicit) return;
   if (scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   if (!rigid && !s.parts.empty() && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;

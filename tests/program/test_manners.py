@@ -320,6 +320,10 @@ class Manners(unittest.TestCase):
                 self.assertEqual(code, 6)
         self.assertIn("`every` is less than the rounding of the times", self.say("run", "swing.pintle.yaml", "--set", "output.every=1e-300").stderr)
 
+    def test_the_reason_for_a_method_is_its_own(self):
+        said = self.say("check", "swing.pintle.yaml", "--set", "run.until=100 s").stdout
+        self.assertRegex(said, r"verner87, chosen because Verner's pair needs about \d+ steps a second for its accuracy, Dormand and Prince's")
+
     def test_a_state_after_the_end_of_the_run(self):
         told = "warning: --at 0.2 s: the run ends at 0.1 s (run.until); it is continued to the state\n"
         self.assertIn(told, self.say("linearize", "swing.pintle.yaml", "--at", "0.2 s").stderr)
