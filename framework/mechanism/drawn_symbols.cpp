@@ -172,6 +172,30 @@ void draw_spiral(const MarkerMotion& a, const MarkerMotion& b, double radius, in
   out.lines.push_back(std::move(line));
 }
 
+bool is_angular_spring(const Force& force) {
+  const auto* sized = std::get_if<SizedForce>(&force);
+  return std::holds_alternative<TorsionSpring>(force) || (sized && sized->way == SizedForce::restoring);
+}
+
+/// The markers of an angular spring; or if they are the origins of two bodies that a pin joins, those of the pin, in the same order.
+std::array<int, 2> ends_of_turning(const System& system, const Force& force) {
+  const std::array<int, 2> ends{marker_a(force), marker_b(force)};
+  const auto body_of = [&](int marker) { return system.markers[at(marker)].body; };
+  for (const int end : ends) {
+    const Marker& m = system.markers[at(end)];
+    if (m.x_BP != (m.body == ground ? Vector2d::Zero() : system.bodies[at(m.body)].x_BO)) return ends;
+  }
+  std::vector<std::array<int, 2>> pins;
+  for (std::size_t c = 0; c < at(n_clearances(system)); ++c) pins.push_back({system.contacts[c].a, system.contacts[c].b});
+  for (const Joint& joint : system.joints)
+    if (properties_of(joint).symbol == JointSymbol::pin) pins.push_back({ends_of(joint).marker[0], ends_of(joint).marker[1]});
+  for (const auto& [a, b] : pins) {
+    if (body_of(a) == body_of(ends[0]) && body_of(b) == body_of(ends[1])) return {a, b};
+    if (body_of(b) == body_of(ends[0]) && body_of(a) == body_of(ends[1])) return {b, a};
+  }
+  return ends;
+}
+
 }  // namespace
 
 std::vector<DrawnActuator> actuators_of(const System& system, const Drafting& drafting) {
@@ -184,12 +208,12 @@ std::vector<DrawnActuator> actuators_of(const System& system, const Drafting& dr
     const Force& force = system.forces[f];
     const auto* sized = std::get_if<SizedForce>(&force);
     const auto add = [&](DrawnActuator::Kind kind, double width) {
-      out.push_back({kind, marker_a(force), marker_b(force), first.force + static_cast<int>(f), width});
+      const auto [a, b] = kind == DrawnActuator::spiral ? ends_of_turning(system, force) : std::array{marker_a(force), marker_b(force)};
+      out.push_back({kind, a, b, first.force + static_cast<int>(f), width});
     };
     if (std::holds_alternative<Spring>(force) || std::holds_alternative<Maxwell>(force)) add(DrawnActuator::coil, drafting.pin);
     if (sized && sized->way == SizedForce::pull) add(DrawnActuator::cylinder, 0.7 * drafting.pin);
-    const bool turns_back = sized && sized->way == SizedForce::restoring;
-    if (std::holds_alternative<TorsionSpring>(force) || turns_back) add(DrawnActuator::spiral, drafting.pin);
+    if (is_angular_spring(force)) add(DrawnActuator::spiral, drafting.pin);
   }
   return out;
 }
@@ -224,7 +248,8 @@ void draw_reactions_and_loads(const System& system, const Equations& eq, Drawing
     const auto* sized = std::get_if<SizedForce>(&force);
     const bool load = std::holds_alternative<PointForce>(force) || std::holds_alternative<Torque>(force) ||
                       (sized && sized->way != SizedForce::pull && sized->way != SizedForce::restoring);
-    add(eq.motion[at(marker_b(force))].r, eq.force[f].on_b, first.force + static_cast<int>(f), load ? Giver::load : Giver::spring);
+    const int marker = is_angular_spring(force) ? ends_of_turning(system, force)[1] : marker_b(force);
+    add(eq.motion[at(marker)].r, eq.force[f].on_b, first.force + static_cast<int>(f), load ? Giver::load : Giver::spring);
   }
 }
 

@@ -79,6 +79,29 @@ run: {until: 1}
   EXPECT_EQ(lines_of(drawing, Part::spring, "spring"), 1);
 }
 
+TEST(DrawnSpirals, OfSpringsBetweenBodiesAreAtTheirPin) {
+  for (const std::string play : {"", ", clearance: {radial: 1 mm, bearing radius: 20 mm, bearing: ground, model: massless link}"}) {
+    const Drawing drawing = drawn(R"(
+bodies: {rod: {rigid: {mass: 1, inertia: 1}, points: {O: [-2, 0], free: [1, 0]}}}
+joints: {hinge: {revolute: [rod.O, ground.P])" +
+                                  play + R"(}}
+ground: {points: {P: [-2, 0]}}
+forces:
+  at pin: {torsion spring: [ground, rod], stiffness: 1, free angle: 0.5}
+  at point: {torsion spring: [ground, rod.free], stiffness: 1}
+run: {until: 1}
+)");
+    for (const auto& [owner, x] : {std::pair("at pin", -2.0), std::pair("at point", 1.0)}) {
+      ASSERT_EQ(lines_of(drawing, Part::spring, owner), 1);
+      const auto is = [&](const DrawnLine& l) {
+        return l.part == Part::spring && drawing.owners.at(static_cast<std::size_t>(l.owner)) == owner;
+      };
+      for (const Vector2d& p : std::ranges::find_if(drawing.lines, is)->points) EXPECT_LT((p - Vector2d(x, 0)).norm(), 0.5) << owner;
+    }
+    EXPECT_LT((forces_of(drawing, "at pin").at(0).at - Vector2d(-2, 0)).norm(), 0.01);
+  }
+}
+
 TEST(DrawnGround, StandsUnderItsPinsAndAlongItsGuides) {
   const Drawing drawing = drawn(hanging);
   long triangles = 0;
