@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/quantity.h"
+#include "app/rounded.h"
 #include "framework/drawing/palette.h"
 
 namespace pintle {
@@ -245,6 +246,7 @@ void FramePicture::draw_lines(const Drawing& drawing, Part part) {
     if (line.part != part) continue;
     std::vector<Vector2d> r;
     for (const Vector2d& p : line.points) r.push_back(place(p));
+    if (line.closed) r = rounded(std::move(r));
     switch (part) {
       case Part::hatch: canvas_->stroke(r, line.closed, small_ * 2, mix(ink, white, 0.55)); break;
       case Part::guide: canvas_->stroke(r, line.closed, small_ * 4, mix(ink, white, 0.45)); break;

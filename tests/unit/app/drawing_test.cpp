@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "app/film.h"
+#include "app/rounded.h"
 #include "app/survey.h"
 #include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
@@ -246,6 +248,28 @@ Drawing beside_a_wall() {
   d.lines = {{Part::link, 0, true, {{-1, 0}, {1, 0}, {1, 1}, {-1, 1}}}, {Part::guide, 1, false, {{-100, 0}, {100, 0}}}};
   d.forces = {{{0, 0}, {0, 5}, 0, Giver::joint, 0}};
   return d;
+}
+
+std::vector<Vector2d> polygon(int corners, double width, double height) {
+  std::vector<Vector2d> out;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    out.emplace_back(300 + width * std::cos(angle), 200 + height * std::sin(angle));
+  }
+  return out;
+}
+
+TEST(Rounded, CirclesHaveChordsWithinHalfAPixel) {
+  for (const double radius : {20.0, 300.0, 1e5}) {
+    const std::vector<Vector2d> circle = rounded(polygon(48, radius, radius));
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+      const Vector2d middle = (circle[i] + circle[(i + 1) % circle.size()]) / 2;
+      EXPECT_NEAR((circle[i] - Vector2d(300, 200)).norm(), radius, 1e-9 * radius);
+      EXPECT_GT((middle - Vector2d(300, 200)).norm(), radius - 0.5);
+    }
+  }
+  for (const std::vector<Vector2d>& other : {polygon(6, 300, 300), polygon(48, 300, 290), polygon(48, 20, 20)})
+    EXPECT_EQ(rounded(other), other);
 }
 
 TEST(Survey, ShowsWhatMovesAndNotAWallOfTwoHundredMetres) {
