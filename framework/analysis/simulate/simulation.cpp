@@ -178,7 +178,7 @@ Run Simulation::finish() {
   if (!going_ && !ended_short(run_)) explain();
   if (goes_on() && integrator_.state().t < scene_.run.until) end(Status::interrupted, "left before its end");
   guarded(run_, last_row_, [&] { add_last(); });
-  run_.t_end = ended_short(run_) ? last_row_ : integrator_.state().t;  // the last step may have been incomplete
+  run_.t_end = lacks_rows() ? last_row_ : integrator_.state().t;  // the last step may have been incomplete
   if (run_.reason.empty()) run_.reason = integrator_.ended();
   run_.impacts = integrator_.impacts();
   run_.happenings = integrator_.happenings();
@@ -205,6 +205,10 @@ Run Simulation::finish() {
 bool Simulation::step(double until) {
   if (integrator_.counts().steps % 64 == 0 && is_stopped(integrator_.state().t)) return true;
   return integrator_.advance(until) && after_step();
+}
+
+bool Simulation::lacks_rows() const {
+  return ended_short(run_) || (run_.status == Status::interrupted && outputs_.due(integrator_.state().t));
 }
 
 bool Simulation::is_stopped(double t) {
@@ -290,14 +294,14 @@ void Simulation::save() {
 
 /// A run that ends early also has a last row, so that its summary and its energy balance refer to the same time.
 void Simulation::add_last() {
-  if (started_ && !ended_short(run_)) {
+  if (started_ && !lacks_rows()) {
     integrator_.sample(integrator_.state().t, sampled_);
     book(integrator_.state());
     const Equations& eq = integrator_.sampled();
     const bool early = run_.status != Status::finished || !integrator_.ended().empty();
     if (early && integrator_.state().t > last_row_ && eq.a.allFinite() && eq.lambda.allFinite()) add_row(integrator_.state());
   }
-  if (listeners_.state && !ended_short(run_)) save();
+  if (listeners_.state && !lacks_rows()) save();
 }
 
 /// Why a run could not continue.
