@@ -112,7 +112,7 @@ const std::vector<Layer> layers{
      {"framework/common/", "framework/scene/", "framework/bodies/", "framework/drawing/", "framework/mechanism/", "framework/build/"}},
 
     {"fmi/", {"files/", "framework/"}},
-    {"app/view/", {"framework/", "app/failure.h", "app/mistyped.h", "app/options.h", "app/progress.h"}},
+    {"app/view/", {"files/noted.h", "framework/", "app/failure.h", "app/mistyped.h", "app/options.h", "app/progress.h"}},
     {"app/fmu/",
      {"files/", "fmi/contents.h", "meshes/module.h", "framework/", "app/failure.h", "app/mistyped.h", "app/options.h", "app/progress.h"}},
     {"app/hdf5/", {"framework/", "app/failure.h", "app/mistyped.h", "app/options.h", "app/progress.h"}},
