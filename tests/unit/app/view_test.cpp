@@ -32,7 +32,7 @@ class View : public testing::Test {
   void SetUp() override {
     if (std::string(PINTLE_BESIDE).empty()) GTEST_SKIP() << "pintle-view was not built: apt-get install libcpp-httplib-dev pkgconf";
     scene_ = folder_.write("scene.yaml", crank);
-    child_ = start(folder_.path() / "log", {PINTLE_PROGRAM, "view", scene_.string()});
+    child_ = start(folder_.path() / "log", {PINTLE_PROGRAM, "view", scene_.string(), "--allow-path", elsewhere_.path().string()});
     using clock = std::chrono::steady_clock;
     for (const auto begin = clock::now(); clock::now() - begin < std::chrono::minutes(2);) {
       const std::string said = contents(folder_.path() / "log.out");
@@ -83,7 +83,7 @@ class View : public testing::Test {
   static Json json(const std::string& answer) { return Json::parse(answer.substr(answer.find("\r\n\r\n") + 4), nullptr, false); }
   Json now(long known = 0) const { return json(answer("GET", root_ + "now?known=" + std::to_string(known))); }
 
-  Folder folder_;
+  Folder folder_, elsewhere_;
   fs::path scene_;
   pid_t child_ = -1;
   int port_ = 0;
@@ -162,24 +162,25 @@ TEST_F(View, SaysThatASceneIsGoneAndShowsItAgainWhenItIsBack) {
 }
 
 TEST_F(View, ReadsTheSceneAgainWhenAFileInAnotherFolderIsSaved) {
-  fs::create_directories(folder_.path() / "parts" / "curves");
+  fs::create_directory(elsewhere_.path() / "curves");
   const auto save = [&](const std::string& name, const std::string& text, int seconds) {
-    const fs::path file = folder_.write(name, text);
+    const fs::path file = elsewhere_.write(name, text);
     fs::last_write_time(file, fs::last_write_time(scene_) + std::chrono::seconds(seconds));
   };
   const std::string drives = "drivers: {motor: {angle: [ground, crank], law: {table: curves/turn.csv}}}\n";
   const Json first = now();
-  save("scene.yaml", "include: parts/motor.yaml" + std::string(crank), 1);
+  folder_.write("scene.yaml", "include: " + (elsewhere_.path() / "motor.yaml").string() + crank);
+  fs::last_write_time(scene_, fs::last_write_time(scene_) + std::chrono::seconds(1));  // whatever the clock's grain is
   const Json missing = now(first["version"]);
   EXPECT_NE(missing["error"].get<std::string>().find("motor.yaml"), std::string::npos) << missing["error"];
-  save("parts/motor.yaml", drives, 1);
+  save("motor.yaml", drives, 1);
   const Json no_table = now(missing["version"]);
   EXPECT_NE(no_table["error"].get<std::string>().find("turn.csv"), std::string::npos) << no_table["error"];
-  save("parts/curves/turn.csv", "0, 0\n1, 1\n", 1);
+  save("curves/turn.csv", "0, 0\n1, 1\n", 1);
   const Json right = now(no_table["version"]);
   EXPECT_EQ(right["error"], "");
   EXPECT_EQ(right["drivers"], Json{"motor"});
-  save("parts/curves/turn.csv", "0, 0\n", 2);
+  save("curves/turn.csv", "0, 0\n", 2);
   const Json short_table = now(right["version"]);
   EXPECT_NE(short_table["error"], "");
   EXPECT_EQ(now(short_table["version"]), (Json{{"version", short_table["version"]}}));
