@@ -197,7 +197,6 @@ void Factor::solve_into(const Eigen::MatrixXd& B, Eigen::MatrixXd& X) const {
 
 int Factor::pivot() const { return data_->pivot; }
 double Factor::nonzeros() const { return data_->common.lnz; }
-double Factor::flops() const { return data_->common.fl; }
 
 Supernodes Factor::supernodes() const {
   if (data_->symbolic) return data_->symbolic->supernodes();

@@ -42,7 +42,6 @@ class Factor {
                   Eigen::MatrixXd& X) const;  ///< reuses X's storage and CHOLMOD's
   int pivot() const;                          ///< −1 after a success
   double nonzeros() const;                    ///< of L
-  double flops() const;                       ///< of the numerical factorisation
   Supernodes supernodes() const;              ///< @pre analysed
 
   static constexpr double nothing = 4e-16;

@@ -30,7 +30,6 @@ struct SparseLu::Data {
   bool choose_pivots(const std::vector<double>& v) {
     klu_free_numeric(&numeric, &common);
     seed = v;
-    ++pivotings;
     numeric = klu_factor(pattern.column_begin.data(), pattern.row.data(), seed.data(), symbolic, &common);
     if (!numeric && common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
     if (!numeric) return false;
@@ -72,7 +71,6 @@ struct SparseLu::Data {
   std::vector<double> seed;    ///< the matrix from which the pivots were chosen
   std::vector<double> pivots;  ///< its U_ii
   double growth = 1;
-  long pivotings = 0;
 };
 
 SparseLu::SparseLu(Pattern pattern, std::vector<int> order) : data_(std::make_unique<Data>(std::move(pattern), std::move(order))) {}
@@ -93,7 +91,6 @@ void SparseLu::solve(double* x) { klu_solve(data_->symbolic, data_->numeric, dat
 
 const Pattern& SparseLu::pattern() const { return data_->pattern; }
 long SparseLu::nonzeros() const { return data_->numeric ? static_cast<long>(data_->numeric->lnz) + data_->numeric->unz : 0; }
-long SparseLu::pivotings() const { return data_->pivotings; }
 
 void SparseLu::save(Writer& out) const {
   const bool factored = data_->numeric != nullptr;

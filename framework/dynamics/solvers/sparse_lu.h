@@ -30,8 +30,7 @@ class SparseLu {
   void solve(double* x);
 
   const Pattern& pattern() const;
-  long nonzeros() const;   ///< of L and U; 0 before the first factorization
-  long pivotings() const;  ///< how often pivots were chosen
+  long nonzeros() const;  ///< of L and U; 0 before the first factorization
 
   /// The data from which the pivots were chosen; after `load` with the values factored last, results continue bit for bit. A stream that
   /// holds something else is left in the failed state, and nothing is factored.

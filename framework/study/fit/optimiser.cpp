@@ -18,17 +18,17 @@ struct OptimiserFacts {
   Optimiser method;
   const char* name;
   nlopt_algorithm algorithm;
-  bool gradient, everywhere, constraints;
+  bool everywhere, constraints;
 };
-constexpr std::array optimisers{OptimiserFacts{Optimiser::bobyqa, "bobyqa", NLOPT_LN_BOBYQA, false, false, false},
-                                OptimiserFacts{Optimiser::cobyla, "cobyla", NLOPT_LN_COBYLA, false, false, true},
-                                OptimiserFacts{Optimiser::nelder_mead, "nelder-mead", NLOPT_LN_NELDERMEAD, false, false, false},
-                                OptimiserFacts{Optimiser::sbplx, "sbplx", NLOPT_LN_SBPLX, false, false, false},
-                                OptimiserFacts{Optimiser::slsqp, "slsqp", NLOPT_LD_SLSQP, true, false, true},
-                                OptimiserFacts{Optimiser::mma, "mma", NLOPT_LD_MMA, true, false, true},
-                                OptimiserFacts{Optimiser::direct, "direct", NLOPT_GN_DIRECT_L, false, true, false},
-                                OptimiserFacts{Optimiser::crs, "crs", NLOPT_GN_CRS2_LM, false, true, false},
-                                OptimiserFacts{Optimiser::isres, "isres", NLOPT_GN_ISRES, false, true, true}};
+constexpr std::array optimisers{OptimiserFacts{Optimiser::bobyqa, "bobyqa", NLOPT_LN_BOBYQA, false, false},
+                                OptimiserFacts{Optimiser::cobyla, "cobyla", NLOPT_LN_COBYLA, false, true},
+                                OptimiserFacts{Optimiser::nelder_mead, "nelder-mead", NLOPT_LN_NELDERMEAD, false, false},
+                                OptimiserFacts{Optimiser::sbplx, "sbplx", NLOPT_LN_SBPLX, false, false},
+                                OptimiserFacts{Optimiser::slsqp, "slsqp", NLOPT_LD_SLSQP, false, true},
+                                OptimiserFacts{Optimiser::mma, "mma", NLOPT_LD_MMA, false, true},
+                                OptimiserFacts{Optimiser::direct, "direct", NLOPT_GN_DIRECT_L, true, false},
+                                OptimiserFacts{Optimiser::crs, "crs", NLOPT_GN_CRS2_LM, true, false},
+                                OptimiserFacts{Optimiser::isres, "isres", NLOPT_GN_ISRES, true, true}};
 
 const OptimiserFacts& facts(Optimiser m) { return *std::ranges::find(optimisers, m, &OptimiserFacts::method); }
 
@@ -153,7 +153,6 @@ class Searching {
 }  // namespace
 
 const char* name_of(Optimiser m) { return facts(m).name; }
-bool by_gradient(Optimiser m) { return facts(m).gradient; }
 bool looks_everywhere(Optimiser m) { return facts(m).everywhere; }
 bool takes_constraints(Optimiser m) { return facts(m).constraints; }
 

@@ -12,8 +12,6 @@ namespace pintle {
 enum class Optimiser { bobyqa, cobyla, nelder_mead, sbplx, slsqp, mma, direct, crs, isres };
 
 const char* name_of(Optimiser);
-/// Whether it needs finite differences for the gradient.
-bool by_gradient(Optimiser);
 /// Whether it searches the whole box instead of descending from a start.
 bool looks_everywhere(Optimiser);
 bool takes_constraints(Optimiser);
