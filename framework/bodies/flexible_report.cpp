@@ -8,6 +8,7 @@
 #include "framework/bodies/modal_basis.h"
 #include "framework/common/dense.h"
 #include "framework/common/text.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -62,10 +63,10 @@ double greatest_change(const VectorXd& omega, const std::vector<MatrixXd>& F, co
   return greatest;
 }
 
-/// The port where a revolute or a weld holds the body on the ground, −1 if none does.
+/// The port that a joint pins or welds to the ground, −1 if none does.
 int pivot(const Scene& scene, const ElasticBody& e) {
   for (const SceneJoint& j : scene.joints) {
-    if (j.kind != JointKind::revolute && j.kind != JointKind::weld) continue;
+    if (!word_of(j).pins) continue;
     const PointRef* own = j.a.body == e.scene->name && j.b.body == "ground"   ? &j.a
                           : j.b.body == e.scene->name && j.a.body == "ground" ? &j.b
                                                                               : nullptr;

@@ -235,7 +235,7 @@ Profile profile_of(const Scene& scene, const Markers& markers, const PointRef& r
 BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
                            int first) {
   for (const SceneJoint& j : scene.joints)
-    if (j.kind == JointKind::weld && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
+    if (word_of(j).pins && word_of(j).clamps && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
       throw SceneError(scene.file, c.place,
                        "the weld " + quoted(j.name) + " joins these two bodies rigidly, so they need no contact; leave the contact out");
   ContactPair like = laws_of(scene, c, a, b);

@@ -129,7 +129,7 @@ std::vector<DrivenCoordinate> driven_by_laws(const System& system) {
     const auto of_it = [&](const Switch& s) { return s.of == Switch::joint && s.index == static_cast<int>(k); };
     if (!law || std::ranges::any_of(system.switches, of_it)) continue;
     const JointEnds ends = ends_of(system.joints[k]);
-    const bool angle = std::holds_alternative<AngleDriver>(system.joints[k]);
+    const bool angle = is_angle_row(system.joints[k], 0);
     const auto end = [&](std::size_t i) { return angle ? system.markers[at(ends.marker[i])].body : ends.marker[i]; };
     out.push_back({angle, end(0), end(1), law});
   }

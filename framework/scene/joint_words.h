@@ -21,12 +21,15 @@ struct JointWord {
   const char* word;        ///< its key in a scene, for its list of points
   bool third = false;      ///< may have a third point, otherwise the ground is used
   bool turns = false;      ///< constrains angles of its bodies, whatever their points
+  bool pins = false;       ///< holds its two points together
   bool guides = false;     ///< guides along the direction of its first point
   bool clamps = false;     ///< fixes the directions of its points relative to each other
   bool clearance = false;  ///< clearance allowed
   bool friction = false;   ///< friction allowed
   std::vector<JointNumber> numbers = {};
-  std::vector<const char*> couples = {};  ///< keys of SceneCoupling allowed with it
+  std::vector<const char*> couples = {};               ///< keys of SceneCoupling allowed with it
+  std::vector<const char*> efforts = {};               ///< columns of its forces besides the reaction at its point
+  bool has_couple() const { return turns || clamps; }  ///< its reaction has a couple
 };
 
 std::span<const JointWord> joint_words();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "framework/scene/joint_words.h"
 #include "framework/scene/units/expression.h"
 
 namespace pintle {
@@ -112,8 +113,9 @@ class SignalWordsOf {
   }
   void add(const SceneJoint& j) {
     twist(j.name, j.a, j.b);
-    if (j.kind == JointKind::prismatic || j.kind == JointKind::slot) put(j.name + ".travel", What::travel, dimension::length, j.a, j.b);
-    if (j.coupling || j.kind == JointKind::differential) column(j.name + ".force", dimension::force);
+    const JointWord& word = word_of(j);
+    if (word.guides) put(j.name + ".travel", What::travel, dimension::length, j.a, j.b);
+    for (const char* effort : word.efforts) column(j.name + effort, dimension::force);
     if (j.coupling && j.play) column(j.name + ".travel", dimension::length);
     if (j.clearance || j.play) {
       contact(j.name, true, j.a, j.b);
@@ -122,9 +124,7 @@ class SignalWordsOf {
         power(j.name, j.name + ".friction*" + j.name + ".sliding - " + j.name + ".normal*" + j.name + ".rate");
       return;
     }
-    const bool couple = j.kind != JointKind::revolute && j.kind != JointKind::slot && j.kind != JointKind::distance;
-    wrench(j.name, true, couple, {&j.a, &j.b});
-    if (j.kind == JointKind::rolling) column(j.name + ".normal", dimension::force);
+    wrench(j.name, true, word.has_couple(), {&j.a, &j.b});
     power(j.name, j.friction ? j.name + ".friction*" + j.name + ".sliding" : "");
     if (!j.friction) return;
     bristles(j.name);

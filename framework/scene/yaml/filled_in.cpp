@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "framework/scene/joint_words.h"
 #include "framework/scene/yaml/filled_in_parts.h"
@@ -120,15 +122,15 @@ Json terms(const std::vector<SceneTerm>& all) {
 
 void put_coupling(const SceneJoint& joint, Json& out) {
   const SceneCoupling& c = *joint.coupling;
-  const bool meshes = joint.kind == JointKind::gear || (joint.kind == JointKind::rolling && c.radius == 0);
+  const auto has = [&keys = word_of(joint).couples](std::string_view key) { return std::ranges::find(keys, key) != keys.end(); };
   if (c.radius > 0) out["radius"] = c.radius;
   if (c.radii[0] > 0) out["radii"] = json(c.radii);
   if (c.teeth[0] > 0) out["teeth"] = json(c.teeth);
   if (c.radius > 0 && c.teeth[1] > 0) out["teeth"] = c.teeth[1];
-  if (meshes) out["inside"] = c.inside;
-  if (joint.kind == JointKind::belt) out["crossed"] = c.crossed;
-  if (joint.kind == JointKind::screw) out["lead"] = c.lead;
-  if (joint.kind == JointKind::cam) out[c.swings ? "swing" : "lift"] = json(c.curve);
+  if (has("inside") && c.radius == 0) out["inside"] = c.inside;
+  if (has("crossed")) out["crossed"] = c.crossed;
+  if (has("lead")) out["lead"] = c.lead;
+  if (has("lift")) out[c.swings ? "swing" : "lift"] = json(c.curve);
 }
 
 Json json(const SceneJoint& joint) {

@@ -31,7 +31,9 @@ const std::vector<Layer> layers{
     {"meshes/", {"files/"}},
 
     {"framework/common/", {}},
-    {"framework/scene/units/", {"framework/common/", "framework/scene/scene.h", "framework/scene/error.h", "framework/scene/text_file.h"}},
+    {"framework/scene/units/",
+     {"framework/common/", "framework/scene/scene.h", "framework/scene/error.h", "framework/scene/joint_words.h",
+      "framework/scene/text_file.h"}},
     {"framework/scene/yaml/", {"files/", "framework/common/", "framework/scene/"}},
     {"framework/scene/", {"files/", "elements/material.h", "elements/section.h", "meshes/link.h", "framework/common/"}},
 
