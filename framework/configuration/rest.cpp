@@ -8,6 +8,7 @@
 #include "framework/dynamics/equations/energy.h"
 #include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/equations/jacobian.h"
+#include "framework/dynamics/model/reach.h"
 #include "framework/integration/events/impact_log.h"
 
 namespace pintle {
@@ -54,10 +55,7 @@ bool has_potential(const System& system) {
 Rest::Rest(const System& system, double t, const KeptStates& kept)
     : held(held_at(system, t, kept)), eq(held), tangent(held), kkt(held, eq, tangent), values(tangent.places().size()), t_(t) {
   double span = 0;
-  std::vector<double> reach(system.bodies.size(), 0.0);
-  for (const Marker& m : system.markers)
-    if (m.body != ground) reach[at(m.body)] = std::max(reach[at(m.body)], m.x_BP.norm());
-  for (double r : reach) span += 2 * r;
+  for (double r : reaches(system)) span += 2 * r;
   span_ = std::max(span / system.length, 1.0);
 }
 

@@ -6,6 +6,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/energy.h"
+#include "framework/dynamics/model/reach.h"
 
 namespace pintle {
 
@@ -16,9 +17,7 @@ namespace {
 constexpr double slowest_speed = 1e-6;  // relative to the finest length per step: slower counts as rest
 }  // namespace
 
-ErrorNorm::ErrorNorm(const System& system, double tolerance) : system_(system), tolerance_(tolerance), reach_(system.bodies.size(), 0.0) {
-  for (const Marker& m : system.markers)
-    if (m.body != ground) reach_[at(m.body)] = std::max(reach_[at(m.body)], m.x_BP.norm());
+ErrorNorm::ErrorNorm(const System& system, double tolerance) : system_(system), tolerance_(tolerance), reach_(reaches(system)) {
   for (const Body& b : system.bodies) {
     mass_ += b.m;
     if (b.modes() > 0) lowest_shape_ = lowest_shape_ > 0 ? std::min(lowest_shape_, b.flex->omega.minCoeff()) : b.flex->omega.minCoeff();

@@ -8,6 +8,7 @@
 #include "framework/common/text.h"
 #include "framework/configuration/redundancy.h"
 #include "framework/configuration/unsound_laws.h"
+#include "framework/dynamics/model/reach.h"
 
 namespace pintle {
 
@@ -21,9 +22,7 @@ struct Unlike {
 Unlike most_unlike(const System& system) {
   double least = INFINITY, most = 0;
   Unlike out;
-  std::vector<double> reach(system.bodies.size(), 0.0);
-  for (const Marker& m : system.markers)
-    if (m.body != ground) reach[static_cast<std::size_t>(m.body)] = std::max(reach[static_cast<std::size_t>(m.body)], m.x_BP.norm());
+  const std::vector<double> reach = reaches(system);
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const Body& body = system.bodies[b];
     const double turning = reach[b] > 0 ? body.J / (reach[b] * reach[b]) : body.m;

@@ -7,6 +7,7 @@
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/internal.h"
 #include "framework/dynamics/equations/sticking.h"
+#include "framework/dynamics/model/reach.h"
 
 namespace pintle {
 
@@ -48,11 +49,9 @@ Alpha::Alpha(const System& system, const Equations& eq, double rho, double toler
       work_(q_base_) {
   for (int i = 0; i < system.n_z(); ++i)
     if (system.integrals[at(i)].account == Account::scheme) loss_ = system.z_begin() + i;
-  VectorXd reach = VectorXd::Zero(static_cast<Index>(system.bodies.size()));
-  for (const Marker& m : system.markers)
-    if (m.body != ground) reach[m.body] = std::max(reach[m.body], m.x_BP.norm());
-  for (Index b = 0; b < reach.size(); ++b) {
-    unit_[3 * b + 2] = 1 / (reach[b] > 0 ? reach[b] : system.length);
+  const std::vector<double> reach = reaches(system);
+  for (Index b = 0; b < std::ssize(reach); ++b) {
+    unit_[3 * b + 2] = 1 / (reach[at(b)] > 0 ? reach[at(b)] : system.length);
     unit_.segment(system.eta_begin[at(b)], system.bodies[at(b)].modes()).setConstant(std::sqrt(system.bodies[at(b)].m));
   }
 }
