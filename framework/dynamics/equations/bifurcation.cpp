@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/common/dense.h"
+#include "framework/dynamics/equations/inverse_mass.h"
 
 namespace pintle {
 
@@ -14,12 +15,6 @@ using Eigen::VectorXd;
 using Index = Eigen::Index;
 
 constexpr int most = 300;  ///< more lost rows than this are taken as permanently redundant
-
-void divide_by_mass(const System& system, Equations& eq, VectorXd& v) {
-  for (std::size_t b = 0; b < system.bodies.size(); ++b)
-    if (eq.flexible_of[b] < 0) v.segment<3>(3 * static_cast<Index>(b)).array() *= eq.W.segment<3>(3 * static_cast<Index>(b)).array();
-  for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
-}
 
 VectorXd product(const System& system, const Equations& eq, const VectorXd& v) {
   VectorXd out = VectorXd::Zero(system.n_rows());
@@ -40,7 +35,7 @@ MatrixXd null_vectors(const System& system, Equations& eq) {
     for (Index i = 0; i < N.rows(); ++i)
       N(i, k) = system.row_scale[i] * std::sin(1.3 + 78.233 * static_cast<double>(i + 1) + 3.7 * static_cast<double>(k * k + k));
     VectorXd g = transposed(system, eq, N.col(k));
-    divide_by_mass(system, eq, g);
+    multiply_inverse_mass(system, eq, g, g);
     VectorXd x = product(system, eq, g);
     eq.schur.solve(x);
     N.col(k) -= x;
@@ -77,11 +72,11 @@ MatrixXd free_part(const System& system, Equations& eq, const MatrixXd& G, Matri
   MatrixXd out(G.cols(), G.rows());
   for (Index d = 0; d < G.rows(); ++d) {
     VectorXd v = G.row(d).transpose();
-    divide_by_mass(system, eq, v);
+    multiply_inverse_mass(system, eq, v, v);
     VectorXd x = product(system, eq, v);
     eq.schur.solve(x);
     VectorXd held = transposed(system, eq, x);
-    divide_by_mass(system, eq, held);
+    multiply_inverse_mass(system, eq, held, held);
     out.col(d) = v - held;
     X.col(d) = x;
   }
@@ -113,7 +108,7 @@ bool follow_bifurcation_branch(const System& system, const State& state, Equatio
   const double rate = size(s), pull = size(eq.a);
   const auto free_pull = [&] {
     VectorXd free = eq.f;
-    divide_by_mass(system, eq, free);
+    multiply_inverse_mass(system, eq, free, free);
     return size(free);
   };
   const bool rests = !(rate > 1e-6 * std::sqrt(pull));
@@ -130,7 +125,7 @@ bool follow_bifurcation_branch(const System& system, const State& state, Equatio
     whole = std::max(whole, std::pow(rounding * (rests ? 1 : rate) * uncancelled(system, eq, N.col(d)), 2));
   for (Index d = 0; d < b.G.rows(); ++d) {
     VectorXd v = b.G.row(d).transpose();
-    divide_by_mass(system, eq, v);
+    multiply_inverse_mass(system, eq, v, v);
     whole = std::max(whole, b.G.row(d).dot(v));
   }
   const VectorXd rest = -(b.third / 3 + b.G * eq.a);

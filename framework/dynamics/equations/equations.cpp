@@ -6,6 +6,7 @@
 #include "framework/common/index.h"
 #include "framework/common/worse.h"
 #include "framework/dynamics/equations/bifurcation.h"
+#include "framework/dynamics/equations/inverse_mass.h"
 #include "framework/dynamics/equations/laws.h"
 #include "framework/dynamics/equations/sticking.h"
 
@@ -17,19 +18,6 @@ using Index = Eigen::Index;
 using Modal = Eigen::Map<const VectorXd>;
 
 namespace {
-
-// v = M⁻¹ f
-void multiply_inverse_mass(const System& system, Equations& eq, const VectorXd& f, VectorXd& v) {
-  const Index n = system.n_rigid();
-  if (eq.flexible.empty()) {
-    v = eq.W.cwiseProduct(f);
-    return;
-  }
-  v = f;
-  for (Index b = 0; b < n / 3; ++b)
-    if (eq.flexible_of[static_cast<std::size_t>(b)] < 0) v.segment<3>(3 * b).array() *= eq.W.segment<3>(3 * b).array();
-  for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
-}
 
 // v −= M⁻¹ Cqᵀ x
 void subtract_reaction(const System& system, Equations& eq, const VectorXd& x, double* v) {
@@ -108,6 +96,18 @@ void switch_rows(const System& system, const VectorXd& y, Equations& eq) {
 }
 
 }  // namespace
+
+void multiply_inverse_mass(const System& system, Equations& eq, const VectorXd& f, VectorXd& v) {
+  const Index n = system.n_rigid();
+  if (eq.flexible.empty()) {
+    v = eq.W.cwiseProduct(f);
+    return;
+  }
+  v = f;
+  for (Index b = 0; b < n / 3; ++b)
+    if (eq.flexible_of[static_cast<std::size_t>(b)] < 0) v.segment<3>(3 * b).array() *= eq.W.segment<3>(3 * b).array();
+  for (FlexibleInertia& body : eq.flexible) solve(body, v.data());
+}
 
 void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
   for (Index b = 0; b < eq.cos_.size(); ++b) {
