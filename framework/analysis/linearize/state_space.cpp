@@ -122,6 +122,29 @@ struct Maps {
   MatrixXd q, s, a, load;
 };
 
+/// For columns [p; ṗ; x; loads; u₁ u̇₁ ü₁ u₂ …], without the effect of p̈ on δa.
+Maps maps_of(const MotionAt& here, const FreeMotion& free, const MatrixXd& loads) {
+  const Index m = free.m(), x = here.x.g_x.rows(), states = 2 * m + x, forces = loads.cols(), offsets = free.X.cols() - m;
+  const auto Z = free.X.leftCols(m), Z1 = free.X1.leftCols(m), Z2 = free.X2.leftCols(m);
+  const MatrixXd none = MatrixXd::Zero(loads.rows(), states + forces + 3 * offsets);
+  Maps maps{none, none, none, none};
+  maps.q.leftCols(m) = Z;
+  maps.s.leftCols(m) = Z1;
+  maps.s.middleCols(m, m) = Z;
+  maps.a.leftCols(m) = Z2;
+  maps.a.middleCols(m, m) = 2 * Z1;
+  maps.load.middleCols(2 * m, x) = here.x.f_x;
+  maps.load.middleCols(states, forces) = loads;
+  for (Index k = 0; k < offsets; ++k) {
+    const Index u = states + forces + 3 * k;
+    maps.q.col(u) = maps.s.col(u + 1) = maps.a.col(u + 2) = free.X.col(m + k);
+    maps.s.col(u) = free.X1.col(m + k);
+    maps.a.col(u + 1) = 2 * free.X1.col(m + k);
+    maps.a.col(u) = free.X2.col(m + k);
+  }
+  return maps;
+}
+
 std::string per_second(const std::string& name, const char* what) {
   const std::size_t unit = name.rfind(" [");
   std::string in = name.substr(unit + 2, name.size() - unit - 3);
@@ -151,6 +174,25 @@ class Outputs {
   MatrixXd all_;
   Index count_ = 0;
 };
+
+/// Forces of springs. @param x  the first internal state among the states
+void add_spring_forces(const System& system, const Measures& measures, const MatrixXd& value, const MatrixXd& rate, Index x, Outputs& out) {
+  Index row = measures.springs;
+  for (std::size_t k = 0; k < system.forces.size(); ++k) {
+    if (const auto* s = std::get_if<Spring>(&system.forces[k])) {
+      out.add(system.force_names[k] + ".pull [N]", s->k * value.row(row) + s->c * rate.row(row));
+      ++row;
+    } else if (const auto* series = std::get_if<Maxwell>(&system.forces[k])) {
+      VectorXd pull = series->k * value.row(row).transpose();
+      pull[x + system.force_x[k]] -= series->k;
+      out.add(system.force_names[k] + ".pull [N]", pull.transpose());
+      ++row;
+    } else if (const auto* r = std::get_if<TorsionSpring>(&system.forces[k])) {
+      out.add(system.force_names[k] + ".restoring torque [N m]", r->k * value.row(row) + r->c * rate.row(row));
+      ++row;
+    }
+  }
+}
 
 void add_efforts(const System& system, const MotionAt& here, const FreeMotion& free, const Maps& maps, Outputs& out) {
   if (free.dependent.empty()) return;
@@ -192,24 +234,8 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
                                            name + ".offset acceleration [" + unit + "/s^2]"});
     }
 
-  // Columns of [p; ṗ; x; loads; u₁ u̇₁ ü₁ u₂ …].
-  const auto Z = free.X.leftCols(m), Z1 = free.X1.leftCols(m), Z2 = free.X2.leftCols(m);
-  const MatrixXd none = MatrixXd::Zero(system.n(), all);
-  Maps maps{none, none, none, none};
-  maps.q.leftCols(m) = Z;
-  maps.s.leftCols(m) = Z1;
-  maps.s.middleCols(m, m) = Z;
-  maps.a.leftCols(m) = Z2;
-  maps.a.middleCols(m, m) = 2 * Z1;
-  maps.load.middleCols(2 * m, x) = here.x.f_x;
-  maps.load.middleCols(states, forces) = loads;
-  for (Index k = 0; k < offsets; ++k) {
-    const Index u = states + forces + 3 * k;
-    maps.q.col(u) = maps.s.col(u + 1) = maps.a.col(u + 2) = free.X.col(m + k);
-    maps.s.col(u) = free.X1.col(m + k);
-    maps.a.col(u + 1) = 2 * free.X1.col(m + k);
-    maps.a.col(u) = free.X2.col(m + k);
-  }
+  Maps maps = maps_of(here, free, loads);
+  const auto Z = free.X.leftCols(m);
   // p̈ from Zᵀ(M δa + D δs + K δq − load) = 0, where only M Z p̈ is not yet in the maps.
   MatrixXd p2(m, all);
   if (m > 0) p2 = -motion.M.llt().solve(Z.transpose() * (here.M * maps.a + here.D * maps.s + here.K * maps.q - maps.load));
@@ -232,21 +258,7 @@ StateSpace state_space(const Model& model, const System& system, const MotionAt&
     const std::string& name = measures.names[at(i)];  // "rod.P.x [m]" to "rod.P.vx [m/s]"
     outputs.add(name.substr(0, name.size() - 5) + "v" + name.substr(name.size() - 5, 1) + " [m/s]", rate.row(i));
   }
-  Index row = measures.springs;
-  for (std::size_t k = 0; k < system.forces.size(); ++k) {
-    if (const auto* s = std::get_if<Spring>(&system.forces[k])) {
-      outputs.add(system.force_names[k] + ".pull [N]", s->k * value.row(row) + s->c * rate.row(row));
-      ++row;
-    } else if (const auto* series = std::get_if<Maxwell>(&system.forces[k])) {
-      VectorXd pull = series->k * value.row(row).transpose();
-      pull[2 * m + system.force_x[k]] -= series->k;
-      outputs.add(system.force_names[k] + ".pull [N]", pull.transpose());
-      ++row;
-    } else if (const auto* r = std::get_if<TorsionSpring>(&system.forces[k])) {
-      outputs.add(system.force_names[k] + ".restoring torque [N m]", r->k * value.row(row) + r->c * rate.row(row));
-      ++row;
-    }
-  }
+  add_spring_forces(system, measures, value, rate, 2 * m, outputs);
   if (free.full_rank) add_efforts(system, here, free, maps, outputs);
   outputs.finish();
   for (MatrixXd* each : {&out.A, &out.B, &out.C, &out.D}) each->array() += 0.0;  // no negative zeros
