@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "framework/common/result_columns.h"
+
 /// A table's columns in one list: a function template that calls `out` for each group of columns names them if `out` is a Heading, and
 /// appends their values if it is a ValueRow. Neither depends on what a column means.
 namespace pintle {
 
-struct Column {
-  const char *name, *unit;
-};
 inline constexpr auto no_suffix = [] { return std::string(); };
 
 /// Each call out(owner, columns, values, suffix) adds "owner.name suffix [unit]".

@@ -77,24 +77,24 @@ void body_columns(const System& system, std::size_t b, Out& out) {
     return Eigen::Rotation2Dd(now.state.y[static_cast<Eigen::Index>(3 * b) + 2]) * body.x_BO;
   };
   const auto speeds = [&system, b](const Now& now) { return now.state.y.data() + system.n() + 3 * b; };
-  out(body.name, {{".x", "m"}, {".y", "m"}, {".angle", "rad"}}, [&](const Now& now) {
+  out(body.name, column::body_pose, [&](const Now& now) {
     const double* q = now.state.y.data() + 3 * b;
     const Eigen::Vector2d d = arm(now);
     return std::array{q[0] + d.x(), q[1] + d.y(), q[2]};
   });
-  out(body.name, {{".vx", "m/s"}, {".vy", "m/s"}, {".speed", "rad/s"}}, [&](const Now& now) {
+  out(body.name, column::body_speed, [&](const Now& now) {
     const double* s = speeds(now);
     const Eigen::Vector2d turned = perp(arm(now));
     return std::array{s[0] + s[2] * turned.x(), s[1] + s[2] * turned.y(), s[2]};
   });
-  out(body.name, {{".ax", "m/s^2"}, {".ay", "m/s^2"}, {".alpha", "rad/s^2"}}, [&](const Now& now) {
+  out(body.name, column::body_acceleration, [&](const Now& now) {
     const double *s = speeds(now), *a = now.eq.a.data() + 3 * b;
     const Eigen::Vector2d d = arm(now), turned = perp(d);
     return std::array{a[0] + a[2] * turned.x() - s[2] * s[2] * d.x(), a[1] + a[2] * turned.y() - s[2] * s[2] * d.y(), a[2]};
   });
   for (int i = 0; i < body.modes(); ++i)
     out(
-        body.name, {{".mode ", "m kg^0.5"}}, [&](const Now& now) { return std::array{now.state.y[system.eta_begin[b] + i]}; },
+        body.name, column::mode, [&](const Now& now) { return std::array{now.state.y[system.eta_begin[b] + i]}; },
         [i] { return std::to_string(i + 1); });
 }
 
@@ -104,7 +104,7 @@ void wrench_columns(const System& system, const std::string& name, bool force, b
   const auto on = [&] { return " on " + body_name(system, marker); };
   if (force)
     out(
-        name, {{".fx", "N"}, {".fy", "N"}},
+        name, column::force,
         [&](const Now& now) {
           const Wrench w = wrench(now);
           return std::array{w[0], w[1]};
@@ -112,14 +112,14 @@ void wrench_columns(const System& system, const std::string& name, bool force, b
         on);
   if (couple)
     out(
-        name, {{".torque", "N m"}}, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
+        name, column::couple, [&](const Now& now) { return std::array{wrench(now)[2]}; }, on);
 }
 
 // Contact pressure between cylinders, if a theory gives it.
 template <class Out, class Force>
 void pressure_columns(const std::string& name, const std::optional<PressureTheory>& theory, const Force& force, Out& out) {
   if (!theory) return;
-  out(name, {{".pressure", "Pa"}, {".half angle", "rad"}}, [&](const Now& now) {
+  out(name, column::pressure, [&](const Now& now) {
     const Pressure p = pressure_under(*theory, force(now));
     return std::array{p.greatest, p.half_angle};
   });
@@ -128,13 +128,11 @@ void pressure_columns(const std::string& name, const std::optional<PressureTheor
 template <class Out>
 void contact_columns(const System& system, std::size_t k, Out& out) {
   const ContactPair& pair = system.contacts[k];
-  out(system.contact_names[k],
-      {{".ex", "m"}, {".ey", "m"}, {".depth", "m"}, {".rate", "m/s"}, {".sliding", "m/s"}, {".normal", "N"}, {".friction", "N"}},
-      [&](const Now& now) {
-        const ContactEffect c = clearance_effect(system, now.eq, k);
-        const double slip = pair.sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
-        return std::array{c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction};
-      });
+  out(system.contact_names[k], column::journal, [&](const Now& now) {
+    const ContactEffect c = clearance_effect(system, now.eq, k);
+    const double slip = pair.sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
+    return std::array{c.gap.e.x(), c.gap.e.y(), c.gap.depth, c.gap.rate, slip, c.normal.force, c.friction};
+  });
   wrench_columns(
       system, system.contact_names[k], true, false, written_marker(pair),
       [&](const Now& now) { return written_force(pair, clearance_effect(system, now.eq, k)); }, out);
@@ -151,14 +149,7 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
   };
   const ContactPair& pair = system.contacts[first];
   const std::string& name = system.contact_names[first];
-  const Column columns[] = {{pair.journal ? ".ex" : ".x", "m"},
-                            {pair.journal ? ".ey" : ".y", "m"},
-                            {".depth", "m"},
-                            {".rate", "m/s"},
-                            {".sliding", "m/s"},
-                            {".normal", "N"},
-                            {".friction", "N"}};
-  out(name, columns, [&](const Now& now) {
+  out(name, pair.journal ? column::journal : column::profiles, [&](const Now& now) {
     const ProfileContact& c = contact(now);
     const double slip = pair.sliding == Sliding::geometric ? c.gap.geometric_slip : c.gap.material_slip;
     return std::array{c.at.x(), c.at.y(), c.gap.depth, c.gap.rate, slip, c.normal, c.friction};
@@ -167,8 +158,7 @@ void profile_columns(const System& system, std::size_t first, Out& out) {
       system, name, true, false, written_marker(pair), [&](const Now& now) { return written_force(pair, contact(now)); }, out);
   pressure_columns(
       name, pair.pressure, [&](const Now& now) { return contact(now).pressed; }, out);
-  if (pair.flank)
-    out(name, {{".force", "N"}, {".travel", "m"}}, [&](const Now& now) { return std::array{contact(now).teeth, contact(now).travel}; });
+  if (pair.flank) out(name, column::flank, [&](const Now& now) { return std::array{contact(now).teeth, contact(now).travel}; });
 }
 
 // For a contact of several pairs, the states of the pair with the largest normal force. The states of its pairs are stored one after another.
@@ -194,12 +184,12 @@ void internal_columns(const System& system, const InternalStates& owner, Out& ou
 template <class Out>
 void point_columns(const System& system, const RecordedPoint& p, Out& out) {
   const auto motion = [&](const Now& now) { return motion_of(system, p.marker, now.state, now.eq); };
-  out(p.name, {{".x", "m"}, {".y", "m"}, {".vx", "m/s"}, {".vy", "m/s"}, {".ax", "m/s^2"}, {".ay", "m/s^2"}}, [&](const Now& now) {
+  out(p.name, column::point, [&](const Now& now) {
     const PointMotion m = motion(now);
     return std::array{m.r.x(), m.r.y(), m.v.x(), m.v.y(), m.a.x(), m.a.y()};
   });
   if (p.marker.shape.size() > 0)
-    out(p.name, {{".ux", "m"}, {".uy", "m"}, {".turn", "rad"}}, [&](const Now& now) {
+    out(p.name, column::deformation, [&](const Now& now) {
       const PointMotion m = motion(now);
       return std::array{m.u.x(), m.u.y(), m.turn};
     });
@@ -211,12 +201,12 @@ void stress_columns(const System& system, const RecordedStress& s, Out& out) {
     return s.probe.rows * now.state.y.segment(system.eta_begin[at(s.body)], s.probe.rows.cols());
   };
   if (s.probe.beam)  // the larger of the two fibres
-    out(s.name, {{".N", "N"}, {".V", "N"}, {".M", "N m"}, {".stress", "Pa"}}, [&](const Now& now) {
+    out(s.name, column::beam_stress, [&](const Now& now) {
       const Eigen::VectorXd v = probe(now);
       return std::array{v[0], v[1], v[2], std::abs(v[0]) / s.probe.A + std::abs(v[2]) * s.probe.distance / s.probe.I};
     });
   else
-    out(s.name, {{".sx", "Pa"}, {".sy", "Pa"}, {".txy", "Pa"}, {".von Mises", "Pa"}}, [&](const Now& now) {
+    out(s.name, column::plane_stress, [&](const Now& now) {
       const Eigen::VectorXd v = probe(now);
       return std::array{v[0], v[1], v[2], von_mises(v)};
     });
@@ -256,11 +246,10 @@ void trajectory_columns(const Model& model, Out out) {
             [&](const Now& now) { return std::array{-now.eq.lambda[system.row_begin[at(k)] + row]}; });
   }
   for (std::size_t k = 0; k < system.frictions.size(); ++k)
-    out(system.joint_names[at(system.frictions[k].joint)], {{".sliding", "m/s"}, {".load", "N"}, {".friction", "N"}},
-        [&, k](const Now& now) {
-          const JointFrictionEffect& f = now.eq.friction[k];
-          return std::array{f.slip, f.load, f.force};
-        });
+    out(system.joint_names[at(system.frictions[k].joint)], column::joint_friction, [&, k](const Now& now) {
+      const JointFrictionEffect& f = now.eq.friction[k];
+      return std::array{f.slip, f.load, f.force};
+    });
   for (std::size_t k = 0; k < system.contacts.size(); ++k) {
     if (!system.contacts[k].profiles)
       contact_columns(system, k, out);
@@ -274,7 +263,7 @@ void trajectory_columns(const Model& model, Out out) {
         system, system.force_names[k], !turns, turns || span, marker_b(system.forces[k]),
         [&](const Now& now) { return now.eq.force[k].on_b; }, out);
     if (span)
-      out(system.force_names[k], {{".tension", "N"}},
+      out(system.force_names[k], column::tension,
           [&](const Now& now) { return std::array{tension(*span, now.eq.motion[at(span->a)], now.eq.motion[at(span->b)])}; });
   }
   for (const InternalStates& owner : system.internal) internal_columns(system, owner, out);
@@ -293,17 +282,18 @@ struct Books {
 
 template <class Out>
 void ledger_columns(const System& system, Out out) {
-  out("", {{"t", "s"}, {"kinetic", "J"}, {"gravity", "J"}, {"springs", "J"}, {"contacts", "J"}}, [](const Books& now) {
+  out("", {{"t", "s"}}, [](const Books& now) { return std::array{now.state.t}; });
+  out("", column::energies, [](const Books& now) {
     const Energies& e = now.energies;
-    return std::array{now.state.t, e.kinetic, e.gravity, e.springs, e.contacts};
+    return std::array{e.kinetic, e.gravity, e.springs, e.contacts};
   });
-  if (is_flexible(system)) out("", {{"strain", "J"}}, [](const Books& now) { return std::array{now.energies.strain}; });
-  out("", {{"stored", "J"}}, [](const Books& now) { return std::array{now.energies.stored()}; });
+  if (is_flexible(system)) out("", column::strain, [](const Books& now) { return std::array{now.energies.strain}; });
+  out("", column::stored, [](const Books& now) { return std::array{now.energies.stored()}; });
   for (std::size_t i = 0; i < system.integrals.size(); ++i)
     out(
         "", {{"", "J"}}, [&](const Books& now) { return std::array{now.state.y[system.z_begin() + static_cast<Eigen::Index>(i)]}; },
         [&] { return integral_name(system, system.integrals[i]); });
-  out("", {{"unexplained", "J"}}, [](const Books& now) { return std::array{now.unexplained}; });
+  out("", column::unexplained, [](const Books& now) { return std::array{now.unexplained}; });
 }
 
 }  // namespace
@@ -316,16 +306,16 @@ Wrench joint_wrench(const System& system, const Equations& eq, int joint) {
 
 std::string integral_name(const System& system, const Integral& i) {
   switch (i.account) {
-    case Account::hysteresis: return system.contact_names[at(i.index)] + ".lost to hysteresis";
-    case Account::friction: return system.contact_names[at(i.index)] + ".lost to friction";
-    case Account::joint_friction: return system.joint_names[at(system.frictions[at(i.index)].joint)] + ".lost to friction";
-    case Account::damper: return system.force_names[at(i.index)] + ".lost to damper";
-    case Account::load: return system.force_names[at(i.index)] + ".work in";
-    case Account::driver: return system.joint_names[at(i.index)] + ".work in";
-    case Account::damping: return system.bodies[at(i.index)].name + ".lost to damping";
+    case Account::hysteresis: return system.contact_names[at(i.index)] + column::to_hysteresis.name;
+    case Account::friction: return system.contact_names[at(i.index)] + column::to_friction.name;
+    case Account::joint_friction: return system.joint_names[at(system.frictions[at(i.index)].joint)] + column::to_friction.name;
+    case Account::damper: return system.force_names[at(i.index)] + column::to_damper.name;
+    case Account::load: return system.force_names[at(i.index)] + column::work_in.name;
+    case Account::driver: return system.joint_names[at(i.index)] + column::work_in.name;
+    case Account::damping: return system.bodies[at(i.index)].name + column::to_damping.name;
     case Account::switching: {
       const Switch& s = system.switches[at(i.index)];
-      return switch_name(system, s) + (s.of == Switch::joint ? ".lost to engaging" : ".lost to switching");
+      return switch_name(system, s) + (s.of == Switch::joint ? column::to_engaging : column::to_switching).name;
     }
     case Account::scheme: return "scheme.lost to numerical dissipation";
   }

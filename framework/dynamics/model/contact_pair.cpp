@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/common/result_columns.h"
+
 namespace pintle {
 
 using Eigen::Vector2d;
@@ -76,7 +78,8 @@ bool has_bristles(const ContactPair& pair) {
 }
 
 std::vector<InternalState> internal_states(const FrictionLaw& law) {
-  std::vector<InternalState> all{{".bristle", "m", breakaway_deflection(law)}, {".dwell", "-", 1}};
+  const auto& [bristle, dwell] = column::bristle;
+  std::vector<InternalState> all{{bristle.name, bristle.unit, breakaway_deflection(law)}, {dwell.name, dwell.unit, 1}};
   all.resize(static_cast<std::size_t>(bristle_states(law)));
   return all;
 }

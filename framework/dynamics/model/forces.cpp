@@ -3,6 +3,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "framework/common/result_columns.h"
+
 namespace pintle {
 
 namespace {
@@ -99,7 +101,7 @@ void curve(const Maxwell& f, const ForceEffect& now, M a, M b, WrenchTangent& ou
   const Vector2d along = d / length, across = perp(along);
   oppose(f.k * along * along.transpose() + now.x_rate[0] * f.c / length * across * across.transpose(), out.pose);
 }
-constexpr InternalState damper_length[] = {{".damper length", "m", 0}};
+constexpr InternalState damper_length[] = {{column::damper_length[0].name, column::damper_length[0].unit, 0}};
 std::span<const InternalState> states(const Maxwell&) { return damper_length; }
 void curve(const Maxwell& f, M a, M b, InternalTangent& out) {
   const Vector2d d = b.r - a.r;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <span>
+#include <string_view>
 
+#include "framework/common/result_columns.h"
 #include "framework/scene/joint_words.h"
 #include "framework/scene/units/expression.h"
 
@@ -11,6 +14,14 @@ namespace pintle {
 namespace {
 
 using What = SignalWord::What;
+
+// Read once: scenes have many columns of few units.
+const Dimension& dimension_of_unit(const char* unit) {
+  thread_local std::map<std::string_view, Dimension> known{{"-", dimension::number}};
+  const auto [found, fresh] = known.try_emplace(unit);
+  if (fresh) found->second = read_quantity(unit).dimension;
+  return found->second;
+}
 
 class SignalWordsOf {
  public:
@@ -35,15 +46,20 @@ class SignalWordsOf {
   void put(const std::string& name, What what, const Dimension& d, PointRef a = {}, PointRef b = {}, int index = 0) {
     words_.try_emplace(name, SignalWord{what, d, std::move(a), std::move(b), index});
   }
-  void column(const std::string& name, const Dimension& d) { put(name, What::column, d); }
+  void put(const std::string& name, std::span<const Column> all, std::initializer_list<What> what, const PointRef& at) {
+    for (std::size_t i = 0; i < all.size(); ++i) put(name + all[i].name, std::data(what)[i], dimension_of_unit(all[i].unit), at);
+  }
+  void columns(const std::string& name, std::span<const Column> all) {
+    for (const Column& c : all) put(name + c.name, What::column, dimension_of_unit(c.unit));
+  }
   // Also under its column heading: "pin.fx on crank".
   void wrench(const std::string& name, bool force, bool couple, std::initializer_list<const PointRef*> on) {
-    const auto part = [&](const char* of, const Dimension& d) {
-      column(name + of, d);
-      for (const PointRef* p : on) column(name + of + " on " + p->body, d);
+    const auto part = [&](const Column& c) {
+      put(name + c.name, What::column, dimension_of_unit(c.unit));
+      for (const PointRef* p : on) put(name + c.name + " on " + p->body, What::column, dimension_of_unit(c.unit));
     };
-    if (force) part(".fx", dimension::force), part(".fy", dimension::force);
-    if (couple) part(".torque", dimension::torque);
+    if (force) std::ranges::for_each(column::force, part);
+    if (couple) std::ranges::for_each(column::couple, part);
   }
   void power(const std::string& name, std::string text) {
     put(name + ".power", What::work_rate, product(dimension::force, dimension::speed));
@@ -60,15 +76,12 @@ class SignalWordsOf {
     power(name, name + ".fx*" + relative(a, b, ".vx") + " + " + name + ".fy*" + relative(a, b, ".vy"));
   }
   void contact(const std::string& name, bool rubs, const PointRef& a, const PointRef& b) {
-    for (const char* place : {".ex", ".ey", ".x", ".y"}) column(name + place, dimension::length);
-    column(name + ".depth", dimension::length);
-    for (const char* speed : {".rate", ".sliding"}) column(name + speed, dimension::speed);
-    column(name + ".normal", dimension::force);
-    if (rubs) column(name + ".friction", dimension::force), bristles(name);
-    column(name + ".pressure", dimension::stress), column(name + ".half angle", dimension::angle);
+    for (const std::span<const Column> all : {std::span<const Column>(column::journal), std::span<const Column>(column::profiles)})
+      columns(name, rubs ? all : all.first(all.size() - 1));  // the last is .friction
+    columns(name, column::pressure);
+    if (rubs) columns(name, column::bristle);
     wrench(name, true, false, {&a, &b});
   }
-  void bristles(const std::string& name) { column(name + ".bristle", dimension::length), column(name + ".dwell", dimension::number); }
   void twist(const std::string& name, const PointRef& a, const PointRef& b) {
     put(name + ".angle", What::relative_angle, dimension::angle, a, b);
     put(name + ".speed", What::relative_speed, dimension::angular_speed, a, b);
@@ -77,46 +90,35 @@ class SignalWordsOf {
     put(name + ".length", What::length, dimension::length, a, b);
     put(name + ".rate", What::length_rate, dimension::speed, a, b);
   }
-  void place(const std::string& name, const PointRef& at) {
-    put(name + ".x", What::x, dimension::length, at);
-    put(name + ".y", What::y, dimension::length, at);
-    put(name + ".vx", What::vx, dimension::speed, at);
-    put(name + ".vy", What::vy, dimension::speed, at);
-    for (const char* a : {".ax", ".ay"}) column(name + a, dimension::acceleration);
-  }
 
   void add(const SceneBody& b) {
     const PointRef body{b.name, "", b.place};
-    place(b.name, body);
-    put(b.name + ".angle", What::angle, dimension::angle, body);
-    put(b.name + ".speed", What::speed, dimension::angular_speed, body);
-    column(b.name + ".alpha", {0, 0, -2, 1});
+    put(b.name, column::body_pose, {What::x, What::y, What::angle}, body);
+    put(b.name, column::body_speed, {What::vx, What::vy, What::speed}, body);
+    columns(b.name, column::body_acceleration);
     const bool bends = b.elastic && b.elastic->modes;
     if (bends) modes(b);
     for (const ScenePoint& p : b.points) {
       const PointRef at{b.name, p.name, p.place};
       const std::string name = b.name + "." + p.name;
-      place(name, at);
+      put(name, column::point, {What::x, What::y, What::vx, What::vy, What::column, What::column}, at);
       if (!bends) continue;
-      put(name + ".ux", What::ux, dimension::length, at);
-      put(name + ".uy", What::uy, dimension::length, at);
-      column(name + ".turn", dimension::angle);
-      for (const char* force : {".N", ".V"}) column(name + force, dimension::force);
-      column(name + ".M", dimension::torque);
-      for (const char* stress : {".stress", ".sx", ".sy", ".txy", ".von Mises"}) column(name + stress, dimension::stress);
+      put(name, column::deformation, {What::ux, What::uy, What::column}, at);
+      columns(name, column::beam_stress), columns(name, column::plane_stress);
     }
   }
   // Only `build` knows the number of modes; 40 more than the scene's count are accepted.
   void modes(const SceneBody& b) {
     const int most = 40 + b.elastic->modes->keep.count.value_or(0);
-    for (int i = 1; i <= most; ++i) column(b.name + ".mode " + std::to_string(i), {1, 0.5, 0, 0});
+    for (int i = 1; i <= most; ++i)
+      put(b.name + column::mode[0].name + std::to_string(i), What::column, dimension_of_unit(column::mode[0].unit));
   }
   void add(const SceneJoint& j) {
     twist(j.name, j.a, j.b);
     const JointWord& word = word_of(j);
     if (word.guides) put(j.name + ".travel", What::travel, dimension::length, j.a, j.b);
-    for (const char* effort : word.efforts) column(j.name + effort, dimension::force);
-    if (j.coupling && j.play) column(j.name + ".travel", dimension::length);
+    for (const char* effort : word.efforts) put(j.name + effort, What::column, dimension::force);
+    if (j.coupling && j.play) columns(j.name, column::flank);
     if (j.clearance || j.play) {
       contact(j.name, true, j.a, j.b);
       const bool one_place = j.clearance && !is_open(j);
@@ -127,9 +129,7 @@ class SignalWordsOf {
     wrench(j.name, true, word.has_couple(), {&j.a, &j.b});
     power(j.name, j.friction ? j.name + ".friction*" + j.name + ".sliding" : "");
     if (!j.friction) return;
-    bristles(j.name);
-    column(j.name + ".sliding", dimension::speed);
-    for (const char* force : {".load", ".friction"}) column(j.name + force, dimension::force);
+    columns(j.name, column::bristle), columns(j.name, column::joint_friction);
   }
   void add(const SceneDriver& d) {
     const bool on_b = d.b.body != "ground";  // results give the effort on the second body, unless it is the ground
@@ -151,11 +151,11 @@ class SignalWordsOf {
     if (const auto* belt = std::get_if<SceneBelt>(&l.what)) {
       for (std::size_t i = 1; i <= belt->pulleys.size(); ++i) {
         const std::string span = l.name + " " + std::to_string(i);
-        wrench(span, true, true, {&belt->pulleys[i % belt->pulleys.size()]}), column(span + ".tension", dimension::force);
+        wrench(span, true, true, {&belt->pulleys[i % belt->pulleys.size()]}), columns(span, column::tension);
       }
       return;
     }
-    if (std::holds_alternative<SceneMaxwell>(l.what)) column(l.name + ".damper length", dimension::length);
+    if (std::holds_alternative<SceneMaxwell>(l.what)) columns(l.name, column::damper_length);
     const auto* torque = std::get_if<SceneTorque>(&l.what);
     const auto* force = std::get_if<SceneForce>(&l.what);
     const PointRef none{"ground", "", {}};

@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include "framework/common/nearest.h"
 #include "framework/common/some_of.h"
 #include "framework/scene/error.h"
 #include "framework/scene/units/signal_words.h"
 #include "framework/study/measures/measure.h"
+#include "framework/study/measures/measure_vocabulary.h"
 #include "framework/study/measures/measure_words.h"
 #include "framework/study/measures/measured_expression.h"
 #include "framework/study/measures/measurables.h"
@@ -25,10 +24,9 @@ namespace {
 
 /// Whether only flexible bodies have this quantity.
 bool elastic(const Asked& a) {
-  constexpr std::array<std::string_view, 11> columns{"ux", "uy", "turn", "N", "V", "M", "stress", "sx", "sy", "txy", "von Mises"};
   if (a.what == What::stress || a.what == What::displacement || a.what == What::deflection) return true;
   return (a.what == What::column || a.what == What::motion) &&
-         (std::ranges::find(columns, a.part) != columns.end() || a.part.starts_with("mode "));
+         (std::ranges::find(elastic_columns, "." + a.part, &Column::name) != elastic_columns.end() || a.part.starts_with("mode "));
 }
 
 /// The body of a measure; nullptr if there is none, or more than one.

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "framework/common/result_columns.h"
 #include "framework/common/words.h"
 #include "framework/study/measures/measure_words.h"
 
@@ -70,38 +71,14 @@ inline constexpr std::array motion_words{MotionWord{"angular acceleration", "alp
                                          MotionWord{"y", "y", "m"}};
 inline constexpr std::array<std::string_view, 5> of_bodies_alone{"angle", "spin", "alpha"}, of_points_alone{"ux", "uy", "turn"};
 
-struct ColumnPart {
-  const char *name, *unit;
-};
-inline constexpr std::array body_columns{ColumnPart{"x", "m"},           ColumnPart{"y", "m"},
-                                         ColumnPart{"angle", "rad"},     ColumnPart{"vx", "m/s"},
-                                         ColumnPart{"vy", "m/s"},        ColumnPart{"speed", "rad/s"},
-                                         ColumnPart{"ax", "m/s^2"},      ColumnPart{"ay", "m/s^2"},
-                                         ColumnPart{"alpha", "rad/s^2"}, ColumnPart{"lost to damping", "J"}};
-inline constexpr std::array point_columns{ColumnPart{"x", "m"},       ColumnPart{"y", "m"},         ColumnPart{"vx", "m/s"},
-                                          ColumnPart{"vy", "m/s"},    ColumnPart{"ax", "m/s^2"},    ColumnPart{"ay", "m/s^2"},
-                                          ColumnPart{"ux", "m"},      ColumnPart{"uy", "m"},        ColumnPart{"turn", "rad"},
-                                          ColumnPart{"N", "N"},       ColumnPart{"V", "N"},         ColumnPart{"M", "N m"},
-                                          ColumnPart{"stress", "Pa"}, ColumnPart{"sx", "Pa"},       ColumnPart{"sy", "Pa"},
-                                          ColumnPart{"txy", "Pa"},    ColumnPart{"von Mises", "Pa"}};
-inline constexpr std::array actor_columns{ColumnPart{"fx", "N"},
-                                          ColumnPart{"fy", "N"},
-                                          ColumnPart{"torque", "N m"},
-                                          ColumnPart{"damper length", "m"},
-                                          ColumnPart{"ex", "m"},
-                                          ColumnPart{"ey", "m"},
-                                          ColumnPart{"depth", "m"},
-                                          ColumnPart{"rate", "m/s"},
-                                          ColumnPart{"sliding", "m/s"},
-                                          ColumnPart{"normal", "N"},
-                                          ColumnPart{"friction", "N"},
-                                          ColumnPart{"lost to hysteresis", "J"},
-                                          ColumnPart{"lost to friction", "J"},
-                                          ColumnPart{"lost to damper", "J"},
-                                          ColumnPart{"work in", "J"}};
-inline constexpr std::array ledger_columns{ColumnPart{"kinetic", "J"},    ColumnPart{"gravity", "J"}, ColumnPart{"springs", "J"},
-                                           ColumnPart{"contacts", "J"},   ColumnPart{"strain", "J"},  ColumnPart{"stored", "J"},
-                                           ColumnPart{"unexplained", "J"}};
+/// Columns by their names in results. A name that is not among them is read as an expression.
+inline constexpr auto elastic_columns = column::joined(column::deformation, column::beam_stress, column::plane_stress);
+inline constexpr auto body_columns =
+    column::joined(column::body_pose, column::body_speed, column::body_acceleration, column::body_transfers);
+inline constexpr auto point_columns = column::joined(column::point, column::deformation, column::beam_stress, column::plane_stress);
+inline constexpr auto actor_columns =
+    column::joined(column::force, column::couple, column::damper_length, column::journal, column::transfers);
+inline constexpr auto ledger_columns = column::joined(column::energies, column::strain, column::stored, column::unexplained);
 
 /// Parts of a force, or the whole.
 struct ForceWord {

@@ -131,22 +131,22 @@ class Reading {
     return name;
   }
 
-  bool is_column(const std::string& owner, const ColumnPart& column) {
+  bool is_column(const std::string& owner, const Column& named) {
     constexpr std::string_view lost = "lost to ";
-    const std::string part = column.name;
+    const std::string part = named.name + 1;
     if (part == "work in") return is(What::work, "J", "", owner);
     if (part.starts_with(lost)) return is(What::lost, "J", part.substr(lost.size()), owner);
     if (std::ranges::find(measurables_.actors, owner) == measurables_.actors.end())
       for (const MotionWord& m : motion_words)
-        if (part == m.part) return is(What::motion, column.unit, part == "speed" ? "spin" : part, owner);
-    return is(What::column, column.unit, part, owner);
+        if (part == m.part) return is(What::motion, named.unit, part == "speed" ? "spin" : part, owner);
+    return is(What::column, named.unit, part, owner);
   }
 
   template <std::size_t n>
-  bool read_column_of(const Names& owners, const std::array<ColumnPart, n>& parts) {
+  bool read_column_of(const Names& owners, const std::array<Column, n>& parts) {
     Names known;
     for (const std::string& owner : owners)
-      for (const ColumnPart& part : parts) known.push_back(owner + "." + part.name);
+      for (const Column& part : parts) known.push_back(owner + part.name);
     const std::size_t before = words_.place();
     const std::string found = words_.take_name(known);
     if (found.empty()) return false;
@@ -155,8 +155,8 @@ class Reading {
       return read_expression();
     }
     for (const std::string& owner : owners)
-      for (const ColumnPart& part : parts)
-        if (owner + "." + part.name == found) is_column(owner, part);
+      for (const Column& part : parts)
+        if (owner + part.name == found) is_column(owner, part);
     if (words_.take("on")) need("body", measurables_.bodies);
     const std::string unit = words_.rest();
     if (unit.starts_with("[") && unit.find(']') != std::string::npos)
@@ -195,7 +195,7 @@ class Reading {
         read_column_of(measurables_.bodies, body_columns))
       return true;
     const std::size_t before = words_.place();
-    for (const ColumnPart& part : ledger_columns)
+    for (const Column& part : ledger_columns)
       if (words_.take(part.name)) {
         if (words_.take("[j]") || words_.done() || words_.rest().find("energy") == std::string::npos)
           return is(What::energy, "J", part.name);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <set>
 
 #include "framework/analysis/kinematics/inverse.h"
 #include "framework/analysis/kinematics/kinematics.h"
@@ -12,6 +14,7 @@
 #include "framework/mechanism/trajectory.h"
 #include "framework/scene/units/expression.h"
 #include "framework/scene/units/signal_words.h"
+#include "framework/study/measures/measure.h"
 #include "tests/refusal.h"
 #include "tests/scenes/text_runs.h"
 
@@ -83,22 +86,67 @@ run: {until: 6 s, method: dopri5}
 }
 
 // What trajectory.csv calls a column an output may name, of the column's dimension.
+Dimension dimension_of(const std::string& unit) {
+  return unit.empty() || unit == "-" || unit == "1" ? Dimension{} : read_quantity(unit).dimension;
+}
+
+// Units of the columns of a table, by their names without time and bodies.
+std::map<std::string, std::string> units_of(const Table& table) {
+  std::map<std::string, std::string> out;
+  for (const std::string& column : table.header) {
+    const std::size_t bracket = column.rfind(" ["), on = column.rfind(" on ");
+    out[column.substr(0, on == std::string::npos ? bracket : on)] = column.substr(bracket + 2, column.size() - bracket - 3);
+  }
+  out.erase("t");
+  return out;
+}
+
+// Cylinders whose pressure is known, with bristles that age.
+const std::string bush = R"yaml(
+bodies: {rod: {rigid: {mass: 1 kg, inertia: 0.01 kg m^2}, points: {A: [0, 0]}}}
+joints:
+  pin:
+    revolute: [ground, rod.A]
+    clearance: {radial: 0.1 mm, bearing radius: 10 mm, bearing: ground,
+                normal: {johnson: {length: 15 mm, young: 207 GPa, poisson: 0.3, hysteresis: flores, restitution: 0.8}},
+                friction: {gonthier: {coefficient: 0.3, bristle stiffness: 1e5 1/m, dwell time: 1 s}}}
+run: {until: 1 s}
+)yaml";
+
 TEST(Reactions, EveryColumnIsAWordOfItsUnit) {
-  for (const char* name : {"belt_drive", "planetary_gearbox", "slider_crank_clearance", "drum_brake", "jamming_drawer", "stage_microslip",
-                           "cam_roller", "excavator", "pid_arm", "release_hook", "gearbox", "gear_backlash"}) {
-    const Scene s = read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/" + name + ".yaml");
+  std::set<std::string> offered, written;
+  const auto kind = [](const std::string& name) {
+    const std::string out = name.substr(std::min(name.rfind('.'), name.size()));
+    return out.starts_with(".mode ") ? ".mode" : out;
+  };
+  for (const std::string name :
+       {"belt_drive", "planetary_gearbox", "slider_crank_clearance", "drum_brake", "jamming_drawer", "stage_microslip", "cam_roller",
+        "excavator", "pid_arm", "release_hook", "gearbox", "gear_backlash", "breaker", "flexible_slider_crank", "four_bar_flexible", ""}) {
+    SCOPED_TRACE(name);
+    const Scene s = name.empty() ? scene(bush) : read_scene(std::string(PINTLE_SOURCE_DIR) + "/examples/" + name + ".yaml");
+    const Model model = build(s);
     const auto words = signal_words(s);
-    for (const std::string& column : trajectory_table(build(s)).header) {
-      const std::size_t bracket = column.rfind(" ["), on = column.rfind(" on ");
-      const std::string word = column.substr(0, on == std::string::npos ? bracket : on);
-      if (word == "t") continue;
-      const auto found = words.find(word);
-      ASSERT_NE(found, words.end()) << name << ": " << column;
-      const std::string unit = column.substr(bracket + 2, column.size() - bracket - 3);
-      const Dimension d = unit == "-" || unit == "1" ? Dimension{} : read_quantity(unit).dimension;
-      EXPECT_TRUE(same(found->second.dimension, d)) << name << ": " << column;
+    auto units = units_of(trajectory_table(model));
+    for (const auto& [column, unit] : units) {
+      const auto found = words.find(column);
+      ASSERT_NE(found, words.end()) << column;
+      EXPECT_TRUE(same(found->second.dimension, dimension_of(unit))) << column;
+      written.insert(kind(column));
+    }
+    for (const auto& [word, what] : words)
+      if (what.what == SignalWord::column && word.find(" on ") == std::string::npos) offered.insert(kind(word));
+    for (const SceneJoint& j : s.joints) {
+      if (j.clearance || j.play || (j.coupling && !j.coupling->terms.empty())) continue;
+      EXPECT_EQ(words.contains(j.name + ".torque"), units.contains(j.name + ".torque")) << j.name;
+    }
+    units.merge(units_of(ledger_table(model.system)));
+    for (const auto& [column, unit] : units) {
+      std::string measured;
+      EXPECT_NO_THROW(measured = measured_unit({"", "peak " + column}, s)) << column;
+      EXPECT_TRUE(same(dimension_of(measured), dimension_of(unit))) << column << " [" << measured << "]";
     }
   }
+  for (const std::string& word : offered) EXPECT_TRUE(written.contains(word)) << word;
 }
 
 TEST(Reactions, ForcesAndStatesStillMayNotNameThem) {
