@@ -143,30 +143,13 @@ bool Stages::attempt(const System& system, double h, Step& step, Equations& eq) 
   return step.error.allFinite();
 }
 
-namespace {
-
-// d of the fourth-order interpolant  cubic + x²(1 − x)² h Σ dᵢkᵢ  of a pair of order five without further stages, where k₇ is the
-// derivative at the step's end: Σd, Σdc, Σdc², ΣdAc vanish, Σdc³ = 1/4, Σdc Ac = 1/8, ΣdAc² = 1/12, ΣdAAc = 1/24. Dormand and Prince's
-// values are from [HairerNorsettWanner1993, II.6]; Fehlberg's leave one free parameter, set to 0.
-const std::array<double, 7>* quartic_of(const Tableau& tableau) {
-  static constexpr std::array<double, 7> dopri5{-12715105075.0 / 11282082432,  0,
-                                                87487479700.0 / 32700410799,   -10690763975.0 / 1880347072,
-                                                701980252875.0 / 199316789632, -1453857185.0 / 822651844,
-                                                69997945.0 / 29380423};
-  static constexpr std::array<double, 7> rkf45{-13.0 / 18, 0, 1664.0 / 855, -2197.0 / 342, 27.0 / 10, 0, 5.0 / 2};
-  return tableau.name == "dopri5" ? &dopri5 : tableau.name == "rkf45" ? &rkf45 : nullptr;
-}
-
-}  // namespace
-
 // The error of the cubic would be h⁴ inside a step, but it is h⁶ at its end.
 void Stages::refine_cubics(const System& system, const Step& step, State& out) const {
-  const std::array<double, 7>* d = quartic_of(tableau_);
-  if (d == nullptr) return;
+  const std::vector<double>& d = tableau_.d;
   const double x = (out.t - step.from.state.t) / step.h, bend = step.h * x * x * (1 - x) * (1 - x);
   const Index cubic = system.n_y() - 2 * system.n();
-  for (std::size_t i = 0; i < d->size(); ++i)
-    if ((*d)[i] != 0) out.y.tail(cubic) += (bend * (*d)[i]) * (i + 1 < d->size() ? k_[i] : step.dy_end()).tail(cubic);
+  for (std::size_t i = 0; i < d.size(); ++i)
+    if (d[i] != 0) out.y.tail(cubic) += (bend * d[i]) * (i + 1 < d.size() ? k_[i] : step.dy_end()).tail(cubic);
 }
 
 double Stages::stiffness(const System& system, const Step& step) const {

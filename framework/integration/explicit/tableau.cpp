@@ -2,6 +2,9 @@
 
 namespace pintle {
 
+// d of a pair of order five gives fourth order without further stages, with the derivative at the step's end as k₇: Σd, Σdc, Σdc², ΣdAc
+// vanish, Σdc³ = 1/4, Σdc Ac = 1/8, ΣdAc² = 1/12, ΣdAAc = 1/24. Dormand and Prince's values are from [HairerNorsettWanner1993, II.6];
+// Fehlberg's leave one free parameter, set to 0.
 std::span<const Tableau> tableaus() {
   static const std::vector<Tableau> all{
       {"rkf45",
@@ -17,7 +20,8 @@ std::span<const Tableau> tableaus() {
        {16.0 / 135, 0, 6656.0 / 12825, 28561.0 / 56430, -9.0 / 50, 2.0 / 55},
        {0, 1.0 / 4, 3.0 / 8, 12.0 / 13, 1, 1.0 / 2},
        {1.0 / 360, 0, -128.0 / 4275, -2197.0 / 75240, 1.0 / 50, 2.0 / 55},
-       3.67},
+       3.67,
+       {-13.0 / 18, 0, 1664.0 / 855, -2197.0 / 342, 27.0 / 10, 0, 5.0 / 2}},
       {"dopri5",
        5,
        4,
@@ -32,7 +36,9 @@ std::span<const Tableau> tableaus() {
        {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84, 0},
        {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1},
        {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40},
-       3.30},
+       3.30,
+       {-12715105075.0 / 11282082432, 0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072, 701980252875.0 / 199316789632,
+        -1453857185.0 / 822651844, 69997945.0 / 29380423}},
       {"verner87",
        8,
        7,

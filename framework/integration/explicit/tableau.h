@@ -16,6 +16,8 @@ struct Tableau {
   std::vector<std::vector<double>> a;  ///< strictly lower triangle, one row per stage, without trailing zeros
   std::vector<double> b, c, e;
   double reach;  ///< stability limit hλ = −reach on the negative real axis
+  /// Between the nodes y is its cubic + x²(1 − x)² h Σ dᵢ kᵢ, where the last k is the derivative at the step's end; empty: the cubic.
+  std::vector<double> d = {};
   int stages() const { return static_cast<int>(b.size()); }
 };
 
