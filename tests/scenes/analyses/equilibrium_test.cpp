@@ -8,6 +8,8 @@
 
 #include "framework/build/build.h"
 #include "framework/build/inertia_defaults.h"
+#include "framework/common/work_done.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/scenes/flexible/flexible_scenes.h"
 #include "tests/refusal.h"
 
@@ -154,6 +156,19 @@ TEST(Equilibrium, ADriverHoldsWithTheTorqueOfTheInstantAskedFor) {
     EXPECT_NEAR(f.value("motor.torque on bob [N m]"), 9.81 * 0.5 * std::cos(angle), solved * 5);
     EXPECT_EQ(f.rest.state.y.tail(f.rest.state.y.size() - 3).norm(), 0) << "at rest";
   }
+}
+
+// A rod of 2 m about the origin, whose end a ram at (3, 0) pushes away from 3.6 m: it is straight at 5 m, after 1.4 s of 4 s.
+TEST(Equilibrium, TellsHowFarItsDriversAreFollowed) {
+  const Scene s = read_scene_text(R"(
+ground: {points: {O: [0, 0], far: [3, 0]}}
+bodies: {rod: {rigid: {mass: 1, inertia: 1}, points: {O: [-1, 0], end: [1, 0]}, pose: {at: [0, 1], angle: 90 deg}}}
+joints: {hinge: {revolute: [ground.O, rod.O]}}
+drivers: {ram: {distance: [ground.far, rod.end], law: 3.6 m + 1 m/s*t}}
+)",
+                                  "scene.yaml");
+  EXPECT_FALSE(rest_of(s, 4).rest.found);
+  EXPECT_NEAR(work_done, 1.4 / 4, 1e-3);
 }
 
 // kδⁿ carries the weight; without friction the journal is free to turn.
