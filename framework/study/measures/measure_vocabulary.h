@@ -122,6 +122,8 @@ inline constexpr std::array account_words{AccountWord{"friction", "friction"},
                                           AccountWord{"dampers", "damper"},
                                           AccountWord{"damper", "damper"},
                                           AccountWord{"damping", "damping"},
+                                          AccountWord{"engaging", "engaging"},
+                                          AccountWord{"switching", "switching"},
                                           AccountWord{"numerical dissipation", "numerical dissipation"},
                                           AccountWord{"scheme", "numerical dissipation"}};
 

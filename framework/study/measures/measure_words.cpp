@@ -229,7 +229,8 @@ class Reading {
     words_.skip_articles();
     for (const AccountWord& a : account_words)
       if (words_.take(a.words)) return a.column;
-    fail("\"" + words_.rest() + "\" is not a kind of energy loss; write friction, hysteresis, damper, damping or numerical dissipation");
+    fail("\"" + words_.rest() +
+         "\" is not a kind of energy loss; write friction, hysteresis, damper, damping, engaging, switching or numerical dissipation");
   }
 
   bool read_lost() {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/common/result_columns.h"
 #include "framework/study/case.h"
 #include "framework/study/measures/measure_words.h"
 #include "tests/oracles/pendulum.h"
@@ -270,6 +271,16 @@ TEST(Measure, ReadsTheSameInManyWords) {
                                    {"work of motor", "motor.work in"},
                                    {"peak acceleration of slider from 40 ms", "peak acceleration of slider in the last 10 ms"}})
     EXPECT_TRUE(same(read(one), read(other))) << one << " / " << other;
+}
+
+TEST(Measure, EveryAccountOfTheLedgerHasItsWord) {
+  constexpr std::string_view lost = ".lost to ";
+  const Scene scene = read_scene_text(driven, "scene.yaml");
+  for (const Column& column : column::joined(column::transfers, column::body_transfers))
+    if (const std::string_view name = column.name; name.starts_with(lost)) {
+      const std::string account(name.substr(lost.size())), words = "energy lost to " + account;
+      EXPECT_EQ(read_measure({words, words}, scene).part, account);
+    }
 }
 
 TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
