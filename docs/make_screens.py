@@ -28,8 +28,9 @@ others = {
     "sweep": ("A sweep", ["sweep", "studies/clearance.yaml"]),
     "fit": ("A fit", ["fit", "studies/fit_chebyshev.yaml"]),
     "bifurcation": ("A bifurcation diagram", ["nonlinear", "studies/duffing.yaml"]),
+    "basins": ("Basins of attraction", ["nonlinear", "studies/duffing_basins.yaml"]),
 }
-show = {"bifurcation": "byId('study-scatter').scrollIntoView({block: 'center'})"}
+show = dict.fromkeys(("bifurcation", "basins"), "byId('study-scatter').scrollIntoView({block: 'center'})")
 
 
 def page_of(pintle, scene, work):
