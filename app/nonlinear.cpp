@@ -58,11 +58,12 @@ void add_basins(const Nonlinear& study, const std::vector<FollowedValue>& values
                       text + ", " + words_of_period(values[basin.first].period) + ", e.g. from " + place_words(study, values[basin.first]));
   }
   if (all.size() > most_shown) rows.emplace_back("", "and " + std::to_string(all.size() - most_shown) + " more: attractors.csv");
-  std::map<std::string, std::size_t> others;
+  std::map<std::string, std::vector<const FollowedValue*>> others;
   for (const FollowedValue& value : values)
-    if (value.attractor == 0) ++others[value.status];
-  for (const auto& [status, n] : others)
-    rows.emplace_back(status, percent(static_cast<double>(n) / static_cast<double>(values.size())) + " %");
+    if (value.attractor == 0) others[value.status].push_back(&value);
+  for (const auto& [status, those] : others)
+    rows.emplace_back(
+        status, percent(static_cast<double>(those.size()) / static_cast<double>(values.size())) + " %, the first: " + those[0]->reason);
 }
 
 /// The exponents of the only value, and their sum.
@@ -197,10 +198,11 @@ Panel map_of_returns(const FollowedValue& value, const std::vector<std::string>&
 /// A curve of points for each of the largest basins, at the positions that `at` gives of a value.
 template <class F>
 Panel of_basins(const std::vector<FollowedValue>& values, Panel panel, const F& add) {
-  constexpr std::size_t most_shown = 8;
+  constexpr std::size_t most_shown = 5;  // and the others, each in a colour of its own
   const std::size_t count = std::min(basins(values).size(), most_shown);
   for (std::size_t k = 1; k <= count + 1; ++k) {
-    Curve curve = dots(k <= count ? "attractor " + std::to_string(k) : "others");
+    Curve curve = dots(k > count ? "others" : (k == 1 ? "attractor " : "") + std::to_string(k));
+    curve.hollow = k > count;
     for (const FollowedValue& value : values)
       if (k <= count ? value.attractor == k : value.attractor == 0 || value.attractor > count) add(value, curve);
     if (!curve.x.empty()) panel.curves.push_back(std::move(curve));

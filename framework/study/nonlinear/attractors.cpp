@@ -10,59 +10,71 @@ namespace pintle {
 namespace {
 
 constexpr std::size_t most_returns = 500;  // of more, the last
+constexpr double rounding = 1e-12;         // in SI: less than any motion of a mechanism
 
-/// The last returns, each signal divided by its range over all motions. A range of rounding counts as none.
-std::vector<Returns> scaled(const std::vector<Returns>& motions) {
-  constexpr double infinity = std::numeric_limits<double>::infinity(), rounding = 1e-12;
+std::vector<double> ranges(const std::vector<SettledMotion>& motions) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> least, most;
-  for (const Returns& motion : motions)
-    for (const std::vector<double>& one : motion) {
+  for (const SettledMotion& motion : motions)
+    for (const std::vector<double>& one : motion.returns) {
       least.resize(one.size(), infinity), most.resize(one.size(), -infinity);
       for (std::size_t i = 0; i < one.size(); ++i) least[i] = std::min(least[i], one[i]), most[i] = std::max(most[i], one[i]);
     }
-  std::vector<Returns> out;
-  for (const Returns& motion : motions) {
-    Returns& last = out.emplace_back(motion.end() - static_cast<std::ptrdiff_t>(std::min(motion.size(), most_returns)), motion.end());
-    for (std::vector<double>& one : last)
-      for (std::size_t i = 0; i < one.size(); ++i) {
-        const double range = most[i] - least[i], size = std::max(std::abs(most[i]), std::abs(least[i]));
-        one[i] = range > rounding * size ? (one[i] - least[i]) / range : 0;
-      }
-  }
-  return out;
+  for (std::size_t i = 0; i < least.size(); ++i) most[i] -= least[i];
+  return most;
 }
 
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double out = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::abs(a[i] - b[i]));
-  return out;
-}
-
-/// Mean distance from a return of `from` to the nearest of `to`; to the nearest other one if they are the same.
-double mean_distance(const Returns& from, const Returns& to) {
-  double sum = 0;
-  for (const std::vector<double>& a : from) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const std::vector<double>& b : to)
-      if (&a != &b) nearest = std::min(nearest, distance(a, b));
-    sum += nearest;
+/// Distances between the returns of two motions.
+class Metric {
+ public:
+  Metric(const SettledMotion& a, const SettledMotion& b, const std::vector<double>& range, double equal) {
+    for (std::size_t i = 0; i < range.size(); ++i) {
+      const double size = std::max(a.largest[i], b.largest[i]);
+      scale_.push_back(std::max(std::min(range[i], size), rounding)), none_.push_back(std::max(equal * size, rounding));
+    }
   }
-  return sum / static_cast<double>(from.size());
-}
+
+  /// Mean distance from a return of `from` to the nearest of `to`; to the nearest other one if they are the same.
+  double mean(const Returns& from, const Returns& to) const {
+    double sum = 0;
+    for (const std::vector<double>& a : from) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const std::vector<double>& b : to)
+        if (&a != &b) nearest = std::min(nearest, between(a, b));
+      sum += nearest;
+    }
+    return sum / static_cast<double>(from.size());
+  }
+
+ private:
+  double between(const std::vector<double>& a, const std::vector<double>& b) const {
+    double out = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (const double off = std::abs(a[i] - b[i]); off > none_[i]) out = std::max(out, off / scale_[i]);
+    return out;
+  }
+
+  std::vector<double> scale_, none_;  ///< of each signal
+};
 
 }  // namespace
 
-std::vector<std::size_t> attractors(const std::vector<Returns>& motions, double tolerance) {
-  const std::vector<Returns> all = scaled(motions);
+std::vector<std::size_t> attractors(const std::vector<SettledMotion>& motions, const Nearness& nearness) {
+  const std::vector<double> range = ranges(motions);
+  std::vector<SettledMotion> all = motions;
+  for (SettledMotion& one : all)
+    if (one.returns.size() > most_returns) one.returns.erase(one.returns.begin(), one.returns.end() - most_returns);
   std::vector<std::size_t> first, count, out(all.size(), 0);  // the first motion of each attractor, and how many it has
   std::vector<double> spread;                                 // of the first motions
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].empty()) continue;
-    const double own = all[k].size() > 1 ? mean_distance(all[k], all[k]) : 0;
+    const Returns& returns = all[k].returns;
+    if (returns.empty()) continue;
+    const double own = returns.size() > 1 ? Metric(all[k], all[k], range, nearness.equal).mean(returns, returns) : 0;
     const auto same = [&](std::size_t group) {
-      const Returns& other = all[first[group]];
-      const double allowed = tolerance + 2 * std::max(own, spread[group]);
-      return mean_distance(all[k], other) <= allowed && mean_distance(other, all[k]) <= allowed;
+      const SettledMotion& other = all[first[group]];
+      const Metric metric(all[k], other, range, nearness.equal);
+      const double allowed = nearness.tolerance + 2 * std::max(own, spread[group]);
+      return metric.mean(returns, other.returns) <= allowed && metric.mean(other.returns, returns) <= allowed;
     };
     std::size_t group = 0;
     while (group < first.size() && !same(group)) ++group;

@@ -163,9 +163,11 @@ std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Ro
     if (study.question.section) value.period = period_of(value.orbit.signals, row.units, study.question.section->tolerance);
   }
   if (study.basins) {
-    std::vector<Returns> motions;
-    for (const FollowedValue& value : out) motions.push_back(value.status == "finished" ? value.orbit.signals : Returns{});
-    const std::vector<std::size_t> found = attractors(motions, study.basins->tolerance);
+    std::vector<SettledMotion> motions;
+    for (const FollowedValue& value : out)
+      motions.push_back(value.status == "finished" ? SettledMotion{value.orbit.signals, value.orbit.largest} : SettledMotion{});
+    const Nearness nearness{.tolerance = study.basins->tolerance, .equal = study.question.section->tolerance};
+    const std::vector<std::size_t> found = attractors(motions, nearness);
     for (std::size_t k = 0; k < out.size(); ++k) out[k].attractor = found[k];
   }
   return out;

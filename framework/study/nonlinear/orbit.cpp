@@ -211,10 +211,13 @@ class Following {
         go_to(integrator, from + k * out_.orbit.interval, go_on_);
       }
       came_ = k;
+      const std::vector<double> signals = columns.read(model_, integrator, sampled_);
+      out_.orbit.largest.resize(signals.size(), 0.0);
+      for (std::size_t i = 0; i < signals.size(); ++i) out_.orbit.largest[i] = std::max(out_.orbit.largest[i], std::abs(signals[i]));
       if (k <= section.transient) begin = integrator.state().t;
       if (k <= section.transient) continue;
       out_.orbit.t.push_back(integrator.state().t);
-      out_.orbit.signals.push_back(columns.read(model_, integrator, sampled_));
+      out_.orbit.signals.push_back(signals);
     }
     out_.orbit.zero_one = zero_one_of(out_.orbit.signals, section.tolerance);
     out_.orbit.dimension = correlation_dimension(out_.orbit.signals, section.tolerance);

@@ -93,6 +93,7 @@ std::string stability_word(OrbitStability);
 struct Orbit {
   std::vector<double> t;                     ///< of each recorded return [s]
   std::vector<std::vector<double>> signals;  ///< of each
+  std::vector<double> largest;               ///< magnitude of each signal at all returns, the skipped ones too
   ImpactFigures impacts;
   double zero_one = std::numeric_limits<double>::quiet_NaN();   ///< K of the first signal; NaN: too few returns
   double dimension = std::numeric_limits<double>::quiet_NaN();  ///< correlation dimension of the section; likewise

@@ -64,7 +64,7 @@ class NumberReader {
 
 template <class Archive, class O>
 void pass(Archive& a, O& o) {
-  a.add(o.t), a.add(o.signals);
+  a.add(o.t), a.add(o.signals), a.add(o.largest);
   a.add(o.impacts.count), a.add(o.impacts.interval), a.add(o.impacts.least_approach), a.add(o.impacts.median);
   a.add(o.impacts.most_approach), a.add(o.impacts.grazing), a.add(o.impacts.contact_share), a.add(o.zero_one), a.add(o.dimension);
   a.add(o.cycle.point), a.add(o.cycle.x), a.add(o.cycle.signals), a.add(o.cycle.period), a.add(o.cycle.least);

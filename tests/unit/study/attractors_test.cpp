@@ -1,5 +1,6 @@
 #include "framework/study/nonlinear/attractors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -8,7 +9,17 @@
 namespace pintle {
 namespace {
 
-constexpr double tolerance = 0.01;
+/// The attractors of motions whose largest magnitudes are those of their returns, or as given.
+std::vector<std::size_t> of(const std::vector<Returns>& all, const std::vector<double>& largest = {}) {
+  std::vector<SettledMotion> motions;
+  for (const Returns& returns : all) {
+    SettledMotion& motion = motions.emplace_back(SettledMotion{returns, largest});
+    motion.largest.resize(returns.empty() ? 0 : returns[0].size(), 0.0);
+    for (const std::vector<double>& one : returns)
+      for (std::size_t i = 0; i < one.size(); ++i) motion.largest[i] = std::max(motion.largest[i], std::abs(one[i]));
+  }
+  return attractors(motions, {});
+}
 
 /// Hénon's map, x' = 1 - 1.4 x² + y, y' = 0.3 x, moved aside.
 Returns henon(double x, double y, double aside, int returns) {
@@ -23,25 +34,38 @@ Returns henon(double x, double y, double aside, int returns) {
 
 TEST(Attractors, OfPeriodsAreToldApartByTheirReturnsAtWhicheverTheyBegin) {
   const Returns two{{0, 1}, {2, 0}, {0, 1}, {2, 0}}, later{{2, 0}, {0, 1}, {2, 0}, {0, 1}}, one{{2, 0}, {2, 0}, {2, 0}, {2, 0}};
-  EXPECT_EQ(attractors({one, two, later, {}}, tolerance), (std::vector<std::size_t>{2, 1, 1, 0}));
+  EXPECT_EQ(of({one, two, later, {}}), (std::vector<std::size_t>{2, 1, 1, 0}));
 }
 
 TEST(Attractors, OfChaosAreOneFromAllStartsAndTwoWhereTheyLieApart) {
   const int returns = 300;
   const std::vector<Returns> motions{henon(0, 0, 0, returns), henon(0.3, 0.1, 5, returns), henon(0.1, 0.1, 0, returns),
                                      henon(-0.4, 0.2, 0, returns)};
-  EXPECT_EQ(attractors(motions, tolerance), (std::vector<std::size_t>{1, 2, 1, 1}));
+  EXPECT_EQ(of(motions), (std::vector<std::size_t>{1, 2, 1, 1}));
 }
 
 TEST(Attractors, AreTheSameWhateverTheUnits) {
-  for (const double scale : {1e-9, 1.0, 1e9})
-    EXPECT_EQ(attractors({{{0}, {0}}, {{scale}, {scale}}, {{1.005 * scale}, {1.005 * scale}}}, tolerance),
-              (std::vector<std::size_t>{2, 1, 1}));
+  for (const double scale : {1e-6, 1.0, 1e9})
+    EXPECT_EQ(of({{{0}, {0}}, {{scale}, {scale}}, {{1.005 * scale}, {1.005 * scale}}}), (std::vector<std::size_t>{2, 1, 1}));
 }
 
-TEST(Attractors, OfASignalThatIsOnlyRoundingAreOne) {
-  EXPECT_EQ(attractors({{{1}}, {{1 + 2e-16}}, {{1 - 1e-16}}}, tolerance), (std::vector<std::size_t>{1, 1, 1}));
+TEST(Attractors, AreOneWhereAllEndAlikeButForTheToleranceOfTheRun) {
+  EXPECT_EQ(of({{{1}}, {{1 + 2e-16}}, {{1 - 1e-16}}}), (std::vector<std::size_t>{1, 1, 1}));
+  EXPECT_EQ(of({{{3.9e-3}, {3.9e-3}}, {{3.9e-3 + 1e-10}, {3.9e-3 + 1e-10}}, {{3.9e-3 - 2e-10}, {3.9e-3}}}),
+            (std::vector<std::size_t>{1, 1, 1}));
 }
+
+TEST(Attractors, AtRestAreOneThoughTheirSpeedsAreNoise) {
+  const std::vector<Returns> noise{{{0.6, 1e-8}}, {{0.6, -6e-7}}, {{-0.7, 3e-7}}, {{0.6, 0}}};
+  EXPECT_EQ(of(noise, {1, 2}), (std::vector<std::size_t>{1, 1, 2, 1}));                                // they have moved
+  EXPECT_EQ(of({{{0.6, 1e-22}}, {{0.6, -3e-22}}, {{-0.7, 0}}}), (std::vector<std::size_t>{1, 1, 2}));  // they never have
+}
+
+TEST(Attractors, AreNotMergedByAMotionThatEscapes) {
+  EXPECT_EQ(of({{{0.1}}, {{-0.1}}, {{1e4}}, {{0.1}}}), (std::vector<std::size_t>{1, 2, 3, 1}));
+}
+
+TEST(Attractors, AreToldApartFarFromTheOrigin) { EXPECT_EQ(of({{{10.002}}, {{10}}, {{10.002}}}, {}), (std::vector<std::size_t>{1, 2, 1})); }
 
 // Wilson's interval holds the shares p that differ from k/n by at most 1.96 of their own standard deviations.
 TEST(Attractors, HaveSharesWithinTheBoundsOfARandomSample) {
