@@ -9,10 +9,10 @@ namespace pintle {
 
 namespace {
 
-constexpr std::size_t most_returns = 500;  // of more, the last
-constexpr double rounding = 1e-12;         // in SI: less than any motion of a mechanism
+constexpr std::size_t most_compared = 500;  // of more, the last
+constexpr double least_motion = 1e-12;      // in SI: less than any motion of a mechanism
 
-std::vector<double> ranges(const std::vector<SettledMotion>& motions) {
+std::vector<double> ranges_of(const std::vector<SettledMotion>& motions) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> least, most;
   for (const SettledMotion& motion : motions)
@@ -30,7 +30,7 @@ class Metric {
   Metric(const SettledMotion& a, const SettledMotion& b, const std::vector<double>& range, double equal) {
     for (std::size_t i = 0; i < range.size(); ++i) {
       const double size = std::max(a.largest[i], b.largest[i]);
-      scale_.push_back(std::max(std::min(range[i], size), rounding)), none_.push_back(std::max(equal * size, rounding));
+      scale_.push_back(std::max(std::min(range[i], size), least_motion)), none_.push_back(std::max(equal * size, least_motion));
     }
   }
 
@@ -60,10 +60,10 @@ class Metric {
 }  // namespace
 
 std::vector<std::size_t> attractors(const std::vector<SettledMotion>& motions, const Nearness& nearness) {
-  const std::vector<double> range = ranges(motions);
+  const std::vector<double> range = ranges_of(motions);
   std::vector<SettledMotion> all = motions;
   for (SettledMotion& one : all)
-    if (one.returns.size() > most_returns) one.returns.erase(one.returns.begin(), one.returns.end() - most_returns);
+    if (one.returns.size() > most_compared) one.returns.erase(one.returns.begin(), one.returns.end() - most_compared);
   std::vector<std::size_t> first, count, out(all.size(), 0);  // the first motion of each attractor, and how many it has
   std::vector<double> spread;                                 // of the first motions
   for (std::size_t k = 0; k < all.size(); ++k) {
