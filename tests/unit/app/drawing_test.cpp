@@ -95,7 +95,7 @@ run: {until: 1}
 )");
     for (const auto& [owner, x] : {std::pair("at pin", -2.0), std::pair("at point", 1.0)}) {
       ASSERT_EQ(lines_of(drawing, Part::spring, owner), 1);
-      const auto is = [&](const DrawnLine& l) {
+      const auto is = [&, owner = owner](const DrawnLine& l) {
         return l.part == Part::spring && drawing.owners.at(static_cast<std::size_t>(l.owner)) == owner;
       };
       for (const Vector2d& p : std::ranges::find_if(drawing.lines, is)->points) EXPECT_LT((p - Vector2d(x, 0)).norm(), 0.5) << owner;
