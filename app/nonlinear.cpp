@@ -344,10 +344,10 @@ int nonlinear(const Options& options) {
     return stopped;
   }
   const std::vector<FollowedValue> values = followed(study, end.rows);
-  write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, end.rows)));
+  write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, values)));
   const auto has_some = [](const FollowedValue& v) { return v.status == "finished" || !v.orbit.t.empty() || !v.orbit.exponents.empty(); };
   if (options.json)
-    std::cout << nonlinear_json(study, end.rows);
+    std::cout << nonlinear_json(study, values);
   else if (std::ranges::any_of(values, has_some) && !options.quiet)
     print(study, end, values, out);
   std::cout.flush();

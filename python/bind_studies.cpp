@@ -118,11 +118,12 @@ py::tuple nonlinear(const std::string& study, const std::string& called, const s
     settings.progress = [&](const SweepCount&) { return watch(); };
     const SweepEnd end = run_nonlinear(what, folder, settings);
     if (end.whole) {
-      values = values_csv(what, end.rows), json = nonlinear_json(what, end.rows);
-      if (what.question.section) section = section_csv(what, end.rows);
-      if (what.question.cycle) orbits = orbits_csv(what, end.rows);
-      if (what.basins) attractors = attractors_csv(what, end.rows);
-      if (what.question.lyapunov) exponents = lyapunov_csv(what, end.rows);
+      const std::vector<FollowedValue> all = followed(what, end.rows);
+      values = values_csv(what, all), json = nonlinear_json(what, all);
+      if (what.question.section) section = section_csv(what, all);
+      if (what.question.cycle) orbits = orbits_csv(what, all);
+      if (what.basins) attractors = attractors_csv(what, all);
+      if (what.question.lyapunov) exponents = lyapunov_csv(what, all);
     }
   }
   watch.raise();

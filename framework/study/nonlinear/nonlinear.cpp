@@ -185,13 +185,14 @@ class ChainWorkers {
 };
 
 void write_results(const Nonlinear& study, const fs::path& folder, const std::vector<Row>& rows) {
-  if (study.question.section) write_synced(folder / "section.csv", section_csv(study, rows));
-  if (study.question.cycle) write_synced(folder / "orbits.csv", orbits_csv(study, rows));
-  if (study.basins) write_synced(folder / "attractors.csv", attractors_csv(study, rows));
-  if (study.question.lyapunov) write_synced(folder / "lyapunov.csv", lyapunov_csv(study, rows));
+  const std::vector<FollowedValue> values = followed(study, rows);
+  if (study.question.section) write_synced(folder / "section.csv", section_csv(study, values));
+  if (study.question.cycle) write_synced(folder / "orbits.csv", orbits_csv(study, values));
+  if (study.basins) write_synced(folder / "attractors.csv", attractors_csv(study, values));
+  if (study.question.lyapunov) write_synced(folder / "lyapunov.csv", lyapunov_csv(study, values));
   write_synced(folder / "timings.csv", timings_csv(rows));
-  write_synced(folder / "values.csv", values_csv(study, rows));
-  write_synced(folder / "nonlinear.json", nonlinear_json(study, rows));
+  write_synced(folder / "values.csv", values_csv(study, values));
+  write_synced(folder / "nonlinear.json", nonlinear_json(study, values));
 }
 
 }  // namespace

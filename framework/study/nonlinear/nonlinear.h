@@ -62,6 +62,7 @@ struct FollowedValue {
   std::vector<double> at;               ///< as numbers; of one that is none, its position in the list
   bool backwards = false;
   std::string status, reason;
+  std::vector<std::string> units;  ///< of the signals recorded
   Orbit orbit;
   std::size_t period = 0;     ///< in returns; 0: none was found
   std::size_t attractor = 0;  ///< from 1, the most frequent first; 0: not asked for, or there are no returns
@@ -75,7 +76,7 @@ std::string place_words(const Nonlinear&, const FollowedValue&);
 /// What varies, of each case, as numbers; of one that is none, its position in the list.
 std::vector<std::vector<double>> parameter_numbers(const Nonlinear&);
 /// "height [m]"
-std::vector<std::string> signal_headers(const Nonlinear&, const std::vector<Row>& rows);
+std::vector<std::string> signal_headers(const Nonlinear&, const std::vector<FollowedValue>&);
 
 /// The starts whose motions end on one attractor.
 struct Basin {
@@ -100,12 +101,12 @@ std::string crossing_words(Crossing);
 /// Headings of the tables that the study writes; units of recorded signals are known only with its rows.
 std::vector<std::vector<std::string>> headings_of_tables(const Nonlinear&);
 /// A row for each return; for each value; for each return of a periodic orbit; for each attractor; for each value and time.
-std::string section_csv(const Nonlinear&, const std::vector<Row>& rows);
-std::string values_csv(const Nonlinear&, const std::vector<Row>& rows);
-std::string orbits_csv(const Nonlinear&, const std::vector<Row>& rows);
-std::string attractors_csv(const Nonlinear&, const std::vector<Row>& rows);
-std::string lyapunov_csv(const Nonlinear&, const std::vector<Row>& rows);
+std::string section_csv(const Nonlinear&, const std::vector<FollowedValue>&);
+std::string values_csv(const Nonlinear&, const std::vector<FollowedValue>&);
+std::string orbits_csv(const Nonlinear&, const std::vector<FollowedValue>&);
+std::string attractors_csv(const Nonlinear&, const std::vector<FollowedValue>&);
+std::string lyapunov_csv(const Nonlinear&, const std::vector<FollowedValue>&);
 /// The results of each value, for programs.
-std::string nonlinear_json(const Nonlinear&, const std::vector<Row>& rows);
+std::string nonlinear_json(const Nonlinear&, const std::vector<FollowedValue>&);
 
 }  // namespace pintle

@@ -44,15 +44,15 @@ Headings after_values(const Nonlinear& study, const Headings& others) {
 /// "exponent 1 [1/s]"
 std::string numbered(const char* name, std::size_t j, const char* unit) { return with_its_unit(name + (" " + std::to_string(j)), unit); }
 
-Headings section_headings(const Nonlinear& study, const std::vector<Row>& rows) {
+Headings section_headings(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   Headings out = after_values(study, {"return", "t [s]"});
-  for (const std::string& header : signal_headers(study, rows)) out.push_back(header);
+  for (const std::string& header : signal_headers(study, values)) out.push_back(header);
   return out;
 }
 
-Headings orbit_headings(const Nonlinear& study, const std::vector<Row>& rows, std::size_t multipliers) {
+Headings orbit_headings(const Nonlinear& study, const std::vector<FollowedValue>& values, std::size_t multipliers) {
   Headings out = after_values(study, {"return"});
-  for (const std::string& header : signal_headers(study, rows)) out.push_back(header);
+  for (const std::string& header : signal_headers(study, values)) out.push_back(header);
   for (const char* own : {"period [s]", "least period", "found from", "stability"}) out.emplace_back(own);
   for (std::size_t j = 1; j <= multipliers; ++j)
     for (const auto& [name, unit] : {std::pair("modulus", ""), std::pair("argument", "rad"), std::pair("error", "")})
@@ -78,11 +78,11 @@ Headings value_headings(const Nonlinear& study) {
 }
 
 /// Of each signal the least, mean and greatest value; of a random sample the bounds of the share; last a start that ends there.
-Headings attractor_headings(const Nonlinear& study, const std::vector<Row>& rows) {
+Headings attractor_headings(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   Headings out{"attractor", "starts", "share"};
   if (study.basins->random) out.insert(out.end(), {"least share", "greatest share"});
   out.insert(out.end(), {"period", "K", "dimension"});
-  for (const std::string& header : signal_headers(study, rows))
+  for (const std::string& header : signal_headers(study, values))
     for (const char* which : {"least ", "mean ", "greatest "}) out.push_back(which + header);
   for (const std::string& header : parameter_headers(study)) out.push_back(header);
   return out;
@@ -133,13 +133,13 @@ std::vector<std::vector<double>> parameter_numbers(const Nonlinear& study) {
   return out;
 }
 
-std::vector<std::string> signal_headers(const Nonlinear& study, const std::vector<Row>& rows) {
+std::vector<std::string> signal_headers(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   std::vector<std::string> out;
   if (!study.question.section) return out;
   for (std::size_t i = 0; i < study.question.section->record.size(); ++i) {
     std::string unit;
-    for (const Row& row : rows)
-      if (unit.empty() && i < row.units.size()) unit = row.units[i];
+    for (const FollowedValue& value : values)
+      if (unit.empty() && i < value.units.size()) unit = value.units[i];
     out.push_back(with_its_unit(study.question.section->record[i].name, unit));
   }
   return out;
@@ -158,7 +158,7 @@ std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Ro
     for (std::size_t i = 0; i < numbers.size(); ++i)
       value.parameters.push_back(numbers[i] ? number_exactly(value.at[i]) : cases.values[k][i].value_or(""));
     value.backwards = study.backwards(row.number);
-    value.status = row.status, value.reason = row.reason;
+    value.status = row.status, value.reason = row.reason, value.units = row.units;
     value.orbit = Orbit::of(row.values);
     if (study.question.section) value.period = period_of(value.orbit.signals, row.units, study.question.section->tolerance);
   }
@@ -183,9 +183,9 @@ std::vector<std::vector<std::string>> headings_of_tables(const Nonlinear& study)
   return out;
 }
 
-std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
-  std::string out = heading_line(section_headings(study, rows));
-  for (const FollowedValue& value : followed(study, rows)) {
+std::string section_csv(const Nonlinear& study, const std::vector<FollowedValue>& values) {
+  std::string out = heading_line(section_headings(study, values));
+  for (const FollowedValue& value : values) {
     const std::string head = fields_of(study, value);
     for (std::size_t k = 0; k < value.orbit.t.size(); ++k) {
       out += head + std::to_string(k + 1) + "," + number_exactly(value.orbit.t[k]);
@@ -196,11 +196,10 @@ std::string section_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   return out;
 }
 
-std::string orbits_csv(const Nonlinear& study, const std::vector<Row>& rows) {
-  const std::vector<FollowedValue> values = followed(study, rows);
+std::string orbits_csv(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   std::size_t multipliers = 0;
   for (const FollowedValue& value : values) multipliers = std::max(multipliers, value.orbit.cycle.re.size());
-  std::string out = heading_line(orbit_headings(study, rows, multipliers));
+  std::string out = heading_line(orbit_headings(study, values, multipliers));
   for (const FollowedValue& value : values) {
     const Cycle& cycle = value.orbit.cycle;
     if (!cycle.found()) continue;
@@ -231,9 +230,8 @@ std::vector<Basin> basins(const std::vector<FollowedValue>& values) {
   return out;
 }
 
-std::string attractors_csv(const Nonlinear& study, const std::vector<Row>& rows) {
-  std::string out = heading_line(attractor_headings(study, rows));
-  const std::vector<FollowedValue> values = followed(study, rows);
+std::string attractors_csv(const Nonlinear& study, const std::vector<FollowedValue>& values) {
+  std::string out = heading_line(attractor_headings(study, values));
   std::size_t number = 0;
   for (const Basin& basin : basins(values)) {
     const FollowedValue& first = values[basin.first];
@@ -255,9 +253,9 @@ std::string attractors_csv(const Nonlinear& study, const std::vector<Row>& rows)
   return out;
 }
 
-std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+std::string values_csv(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   std::string out = heading_line(value_headings(study));
-  for (const FollowedValue& value : followed(study, rows)) {
+  for (const FollowedValue& value : values) {
     const Orbit& orbit = value.orbit;
     out += fields_of(study, value) + value.status;
     if (study.basins) out += "," + std::to_string(value.attractor);
@@ -280,14 +278,13 @@ std::string values_csv(const Nonlinear& study, const std::vector<Row>& rows) {
   return out;
 }
 
-std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows) {
+std::string nonlinear_json(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   using Json = nlohmann::ordered_json;
   const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
   const std::vector<std::string> headers = parameter_headers(study);
-  const std::vector<FollowedValue> values_followed = followed(study, rows);
-  Json values = Json::array();
-  for (const FollowedValue& value : values_followed) {
-    Json& one = values.emplace_back(Json::object());
+  Json all = Json::array();
+  for (const FollowedValue& value : values) {
+    Json& one = all.emplace_back(Json::object());
     for (std::size_t i = 0; i < headers.size(); ++i) one[headers[i]] = value.parameters[i];
     if (study.varies() && !study.basins) one["direction"] = value.backwards ? "backwards" : "forwards";
     if (study.basins) one["attractor"] = value.attractor;
@@ -311,10 +308,10 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
       one["exponents [1/s]"].push_back({{"value", number(e.value)}, {"standard error", number(e.error)}});
   }
   Json found = Json::array();
-  for (const Basin& basin : basins(values_followed)) {
-    found.push_back({{"starts", basin.starts}, {"share", basin.share}, {"period", values_followed[basin.first].period}});
+  for (const Basin& basin : basins(values)) {
+    found.push_back({{"starts", basin.starts}, {"share", basin.share}, {"period", values[basin.first].period}});
     if (!study.basins->random) continue;
-    const ShareBounds bounds = share_bounds(basin.starts, values_followed.size());
+    const ShareBounds bounds = share_bounds(basin.starts, values.size());
     found.back()["bounds of share"] = {bounds.least, bounds.most};
   }
   Json out = {{"program", "pintle"},
@@ -322,15 +319,15 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<Row>& rows)
               {"title", study.sweep.study.title},
               {"file", study.sweep.study.file},
               {"varied", headers},
-              {"recorded", study.question.section ? signal_headers(study, rows) : std::vector<std::string>()},
-              {"values", values}};
+              {"recorded", study.question.section ? signal_headers(study, values) : std::vector<std::string>()},
+              {"values", all}};
   if (study.basins) out["attractors"] = found;
   return json_text(out) + "\n";
 }
 
-std::string lyapunov_csv(const Nonlinear& study, const std::vector<Row>& rows) {
+std::string lyapunov_csv(const Nonlinear& study, const std::vector<FollowedValue>& values) {
   std::string out = heading_line(lyapunov_headings(study));
-  for (const FollowedValue& value : followed(study, rows)) {
+  for (const FollowedValue& value : values) {
     const std::string head = fields_of(study, value);
     for (std::size_t k = 0; k < value.orbit.running_t.size(); ++k) {
       out += head + number_exactly(value.orbit.running_t[k]);
