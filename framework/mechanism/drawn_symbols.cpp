@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "framework/common/index.h"
 #include "framework/mechanism/profile_contact.h"
@@ -177,29 +179,45 @@ bool is_angular_spring(const Force& force) {
   return std::holds_alternative<TorsionSpring>(force) || (sized && sized->way == SizedForce::restoring);
 }
 
-/// The markers of an angular spring; or if they are the origins of two bodies that a pin joins, those of the pin, in the same order.
-std::array<int, 2> ends_of_turning(const System& system, const Force& force) {
-  const std::array<int, 2> ends{marker_a(force), marker_b(force)};
-  const auto body_of = [&](int marker) { return system.markers[at(marker)].body; };
-  for (const int end : ends) {
-    const Marker& m = system.markers[at(end)];
-    if (m.x_BP != (m.body == ground ? Vector2d::Zero() : system.bodies[at(m.body)].x_BO)) return ends;
+/// Where angular springs are drawn.
+class TurningEnds {
+ public:
+  explicit TurningEnds(const System& system) : system_(system) {
+    if (std::ranges::none_of(system.forces, is_angular_spring)) return;
+    for (std::size_t c = 0; c < at(n_clearances(system)); ++c) add_pin(system.contacts[c].a, system.contacts[c].b);
+    for (const Joint& joint : system.joints)
+      if (properties_of(joint).symbol == JointSymbol::pin) add_pin(ends_of(joint).marker[0], ends_of(joint).marker[1]);
   }
-  std::vector<std::array<int, 2>> pins;
-  for (std::size_t c = 0; c < at(n_clearances(system)); ++c) pins.push_back({system.contacts[c].a, system.contacts[c].b});
-  for (const Joint& joint : system.joints)
-    if (properties_of(joint).symbol == JointSymbol::pin) pins.push_back({ends_of(joint).marker[0], ends_of(joint).marker[1]});
-  for (const auto& [a, b] : pins) {
-    if (body_of(a) == body_of(ends[0]) && body_of(b) == body_of(ends[1])) return {a, b};
-    if (body_of(b) == body_of(ends[0]) && body_of(a) == body_of(ends[1])) return {b, a};
+
+  /// The markers of an angular spring; or if they are the origins of two bodies that a pin joins, those of the first such pin, in the same
+  /// order.
+  std::array<int, 2> of(const Force& spring) const {
+    const std::array<int, 2> ends{marker_a(spring), marker_b(spring)};
+    if (!is_origin(ends[0]) || !is_origin(ends[1])) return ends;
+    const auto pin = pins_.find({body_of(ends[0]), body_of(ends[1])});
+    return pin == pins_.end() ? ends : pin->second;
   }
-  return ends;
-}
+
+ private:
+  void add_pin(int a, int b) {
+    pins_.try_emplace({body_of(a), body_of(b)}, std::array{a, b});
+    pins_.try_emplace({body_of(b), body_of(a)}, std::array{b, a});
+  }
+  int body_of(int marker) const { return system_.markers[at(marker)].body; }
+  bool is_origin(int marker) const {
+    const Marker& m = system_.markers[at(marker)];
+    return m.x_BP == (m.body == ground ? Vector2d::Zero() : system_.bodies[at(m.body)].x_BO);
+  }
+
+  const System& system_;
+  std::map<std::pair<int, int>, std::array<int, 2>> pins_;  ///< by the bodies that they join
+};
 
 }  // namespace
 
 std::vector<DrawnActuator> actuators_of(const System& system, const Drafting& drafting) {
   const FirstOwners first(system);
+  const TurningEnds turning(system);
   std::vector<DrawnActuator> out;
   for (std::size_t k = 0; k < system.joints.size(); ++k)
     if (const auto* driver = std::get_if<DistanceDriver>(&system.joints[k]))
@@ -208,7 +226,7 @@ std::vector<DrawnActuator> actuators_of(const System& system, const Drafting& dr
     const Force& force = system.forces[f];
     const auto* sized = std::get_if<SizedForce>(&force);
     const auto add = [&](DrawnActuator::Kind kind, double width) {
-      const auto [a, b] = kind == DrawnActuator::spiral ? ends_of_turning(system, force) : std::array{marker_a(force), marker_b(force)};
+      const auto [a, b] = kind == DrawnActuator::spiral ? turning.of(force) : std::array{marker_a(force), marker_b(force)};
       out.push_back({kind, a, b, first.force + static_cast<int>(f), width});
     };
     if (std::holds_alternative<Spring>(force) || std::holds_alternative<Maxwell>(force)) add(DrawnActuator::coil, drafting.pin);
@@ -243,12 +261,13 @@ void draw_reactions_and_loads(const System& system, const Equations& eq, Drawing
       const int marker = ends.marker[on_ground(system, ends.marker[1]) ? 0 : 1];
       add(eq.motion[at(marker)].r, joint_wrench(system, eq, k), first.joint + k, Giver::joint);
     }
+  const TurningEnds turning(system);
   for (std::size_t f = 0; f < std::min(system.forces.size(), eq.force.size()); ++f) {
     const Force& force = system.forces[f];
     const auto* sized = std::get_if<SizedForce>(&force);
     const bool load = std::holds_alternative<PointForce>(force) || std::holds_alternative<Torque>(force) ||
                       (sized && sized->way != SizedForce::pull && sized->way != SizedForce::restoring);
-    const int marker = is_angular_spring(force) ? ends_of_turning(system, force)[1] : marker_b(force);
+    const int marker = is_angular_spring(force) ? turning.of(force)[1] : marker_b(force);
     add(eq.motion[at(marker)].r, eq.force[f].on_b, first.force + static_cast<int>(f), load ? Giver::load : Giver::spring);
   }
 }
