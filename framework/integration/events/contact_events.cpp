@@ -20,7 +20,12 @@ constexpr double part_pressed = 1e-9;  // relative to the greatest force of rigi
 }  // namespace
 
 ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
-    : system_(system), tolerance_(scheme.tolerance), onset_cut_(scheme.onset_cut), fixed_step_(scheme.fixed_step), log_(system) {
+    : system_(system),
+      tolerance_(scheme.tolerance),
+      onset_cut_(scheme.onset_cut),
+      fixed_step_(scheme.fixed_step),
+      log_(system),
+      opened_(system.contacts.size(), -infinite) {
   for (int c = 0; c < contacts(); ++c) {
     const ContactPair& pair = system.contacts[at(c)];
     if (pair.profiles && (std::isfinite(pair.gap.a.half) || std::isfinite(pair.gap.b.half))) leaving_.push_back(c);
@@ -57,7 +62,11 @@ Guard ContactEvents::guard(int event, const State& state) const {
     const Margin inside = margin_of(system_, contact, state);
     return {inside.value, inside.rate};
   }
-  if (!log_.touching(event)) return onset_of(system_, event, state);
+  if (!log_.touching(event)) {
+    Guard onset = onset_of(system_, event, state);
+    if (opened_[at(event)] == state.t) onset.rate = std::min(onset.rate, -std::numeric_limits<double>::min());  // rounding of zero
+    return onset;
+  }
   if (is_released(system_, Switch::contact, event, state.y)) return {-1};
   return is_rigid(system_.contacts[at(event)]) ? pressed(event, state) : gap_of(system_, event, state);
 }
@@ -152,11 +161,18 @@ void ContactEvents::start(Step& step) {
   if (!rigid.empty()) strike(rigid, step);
 }
 
-// Also provides the reference force for the first step.
+// Ends the contacts that have opened under their forces, so that the step may end at their next onset. Also provides the reference force
+// for the first step.
 void ContactEvents::begin_step(const State& from) {
-  for (int c = 0; c < contacts(); ++c)
-    if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping())
+  for (int c = 0; c < contacts(); ++c) {
+    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping()) continue;
+    if (from.impact_rate[at(c)] == 0) {
+      log_.end(c, from.t, 0);
+      opened_[at(c)] = from.t;
+    } else {
       most_pressed_ = std::max(most_pressed_, std::abs(from.friction[at(c)].load));
+    }
+  }
 }
 
 // Logs the contacts of time-stepping: a contact lasts as long as each step has an impulse.
@@ -192,9 +208,8 @@ void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<co
   if (time_stepping()) write_down(step);
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
-    if (!is_rigid(system_.contacts[at(c)]) || !log_.touching(c) || time_stepping()) continue;
-    if (step.h > 0 && step.from.state.impact_rate[at(c)] == 0) log_.end(c, step.from.state.t, 0);  // it has opened under its forces
-    most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
+    if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping())
+      most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
   }
   for (int c = 0; c < contacts(); ++c)
     if (double& latched = step.to.state.impact_rate[at(c)]; system_.contacts[at(c)].follows && latched > 0 && to[at(c)].value > 0)

@@ -72,6 +72,42 @@ TEST_P(RigidContact, ABallThatLeavesASlightOverlapSlowlyDoesNotFallThrough) {
   }
 }
 
+// ---- a ball without restitution on a vibrating table, A ω² = γ g ------------------------------
+
+// It leaves where the table falls with g, and lands where its parabola meets the table: one flight a period, however long the steps are.
+TEST_P(RigidContact, ABallThatATableThrowsLandsOnItOncePerPeriod) {
+  constexpr double omega = 100, period = 2 * M_PI / omega;
+  for (const double gamma : {1.1, 1.5, 2.5})
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+      SCOPED_TRACE("gamma " + number(gamma) + ", tolerance " + number(tolerance));
+      const double A = gamma * g / (omega * omega), leaves = std::asin(1 / gamma) / omega;
+      const auto gap = [&](double t) {
+        const double theta = omega * leaves;
+        return A * std::sin(theta) + A * omega * std::cos(theta) * t - g * t * t / 2 - A * std::sin(theta + omega * t);
+      };
+      double low = 0.02 * std::sqrt(gamma - 1) * period, high = period;  // it is open at the first and closed at the second
+      ASSERT_GT(gap(low), 0);
+      ASSERT_LT(gap(high), 0);
+      for (int i = 0; i < 60; ++i) (gap((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
+      const Whole w =
+          run("gravity: [0, -9.81]\nground: {points: {below: {at: [0, -1], angle: 90 deg}}}\nbodies:\n"
+              "  table: {rigid: {mass: 100, inertia: 1}, profiles: {top: {path: [[-1, 0], [1, 0]], material: right}}}\n" +
+                  disc("ball") +
+                  "joints: {guide: {prismatic: [ground.below, table], angle: -90 deg}, tube: {prismatic: [ground.below, ball], "
+                  "angle: -90 deg}}\ndrivers: {shaker: {distance: [ground.below, table], law: \"1 m + " +
+                  number(A) + " m*sin(100 rad/s*t)\"}}\ncontacts:\n" + struck("foot", "ball.rim", "table.top", "restitution: 0") +
+                  "start: {ball: {y: 0.1}}\n" + run_for(leaves + low + 8.5 * period, 0.01),
+              {GetParam().name, GetParam().words, tolerance, 0});
+      ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+      const std::vector<Impact>& all = w.run.impacts;  // the first at the start
+      ASSERT_EQ(all.size(), 10u);
+      for (std::size_t i = 1; i < all.size(); ++i) {
+        EXPECT_NEAR(all[i].begin, leaves + low + static_cast<double>(i - 1) * period, 1e-8 * period);
+        EXPECT_LT(all[i].deepest, 1e-8 * A);
+      }
+    }
+}
+
 TEST_P(RigidContact, ABlockSlidesDownASteepSlope) {
   const double slope = 30 * degree, a = g * (std::sin(slope) - mu * std::cos(slope)), t = 1;
   const Whole w = run_it(block(slope, 0, t));
