@@ -175,6 +175,8 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
       step.h = h;
       return Ending::missed;  // the longer step missed what this step resolves
     }
+    const bool at_rounding = std::abs(now.value) <= event.watch.zero && std::abs(now.value) > std::abs(before.value) / 2;
+    if (!event.watch.level && i > 0 && at_rounding) return Ending::there;
     (turned(now, event.watch).value > 0 ? high : low) = t;
     const double rate = std::isnan(now.rate) ? (now.value - before.value) / (t - t_before) : now.rate;
     double next = std::clamp(t - now.value / rate, t0, t1);
