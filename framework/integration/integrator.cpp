@@ -196,7 +196,8 @@ void Integrator::look_inside() {
   held_.look(system_, *stepper_, step_, dense_);
 }
 
-// If dense output of a long step shows an event that true steps do not find, or a step goes too far past one, a shorter step is tried.
+// If dense output of a long step shows an event that true steps do not find, or find after another one, or if a step goes too far past
+// one, a shorter step is tried.
 bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
   for (int halvings = 0;; ++halvings) {
     look_inside();
@@ -204,11 +205,11 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
     held_.forget();
     if (!event) return true;
     const Events::Ending ending = events_.end_at(*event, *stepper_, norm_, step_, eq_);
-    if (ending == Events::Ending::there) {
+    const int most = event->watch.overshoot > 0 ? 200 : 40;
+    if (ending == Events::Ending::there && (halvings > most || !events_.passes_another(step_))) {
       events_.look_at_end(step_, evaluated_at_end());
       return true;
     }
-    const int most = event->watch.overshoot > 0 ? 200 : 40;
     if (ending == Events::Ending::impossible)
       stop("singular configuration while locating an event of " + events_.name(*event));
     else if (halvings > most)

@@ -36,6 +36,8 @@ class Events {
   /// Ends the step at the event by true steps of the method instead of dense output. If it is missed, step.h is as before; impossible: the
   /// method cannot step there.
   Ending end_at(const EventInStep&, Stepper&, const ErrorNorm&, Step&, Equations&);
+  /// Whether the step, ended at the event that `first` has found, has passed another one: dense output put them in the wrong order.
+  bool passes_another(const Step&) const;
   /// An event that has occurred exactly at a step's end, or was passed by the action of another event there.
   std::optional<EventInStep> due(const State& end) const;
   /// Evaluates the guards where the step really ended.
@@ -95,6 +97,7 @@ class Events {
   bool still_ = false;                  ///< nothing has moved between the last two events counted
   std::vector<unsigned char> spent_;    ///< the event has acted and its guard has not returned since
   std::vector<Wishes> wishes_;          ///< of each group
+  double second_ = 0;                   ///< when the second event of the step occurs, by dense output [s]
   int here_ = 0;                        ///< events at the present instant
   int crowd_ = 0;                       ///< events with hardly any time passing or nothing moving between them …
   std::vector<unsigned char> crowded_;  ///< … which ones

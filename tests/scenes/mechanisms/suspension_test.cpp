@@ -131,5 +131,31 @@ TEST(RearSuspension, GoesOverItsHump) {
   EXPECT_NEAR(hardest, 8133, 1);
 }
 
+// It begins at rest on a flat road, where a step may be as long as the whole hump.
+TEST(RearSuspension, GoesOverItsHumpByEveryMethodAndTolerance) {
+  Scene s = read_scene(PINTLE_SOURCE_DIR "/examples/rear_suspension.yaml");
+  s.output.frames = 0;
+  Suspension hand;
+  hand.rest();
+  std::vector<std::array<double, 2>> by_hand;  // height, angle
+  for (const char* method : {"dopri5", "rkf45", "verner87"})
+    for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      SCOPED_TRACE(std::string(method) + " " + std::to_string(tolerance));
+      s.run.method = method, s.run.tolerance = tolerance;
+      const Whole w = run(s);
+      expect_sound(w);
+      const auto t = w.column("t [s]"), height = w.column("body.y [m]"), angle = w.column("arm.angle [rad]");
+      const double near = std::max(1000 * tolerance, 1e-6);
+      for (std::size_t i = 0; i < t.size(); ++i) {
+        if (by_hand.size() == i) {
+          hand.advance(t[i], 2e-5);
+          by_hand.push_back({hand.x[0], hand.x[1]});
+        }
+        ASSERT_NEAR(height[i], by_hand[i][0], near) << t[i];
+        ASSERT_NEAR(angle[i], by_hand[i][1], near) << t[i];
+      }
+    }
+}
+
 }  // namespace
 }  // namespace pintle::suspension_test

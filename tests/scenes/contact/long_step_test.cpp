@@ -1,0 +1,42 @@
+// Where nothing but gravity acts, a step may be as long as the run. No contact may be lost in it, at any tolerance.
+#include <gtest/gtest.h>
+
+#include "tests/scenes/contact/rigid_scenes.h"
+
+namespace pintle::long_step_test {
+namespace {
+
+using pintle_scenes::Method, pintle_scenes::name_of, pintle_scenes::number, pintle_scenes::run, pintle_scenes::struck_by,
+    pintle_scenes::Whole;
+
+constexpr double g = 9.81, edge = 0.1;
+
+class LongSteps : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(All, LongSteps, testing::ValuesIn(struck_by), name_of);
+
+// At the end of a long step the ball is far below the table, beside it.
+TEST_P(LongSteps, ABallHopsOnATableUntilItsEdge) {
+  for (const char* law : {"normal: {hunt-crossley: {restitution: 0.9, stiffness: 1e9}}", "model: impact, restitution: 0.9"})
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
+      for (const double speed : {0.2, 0.5}) {
+        SCOPED_TRACE(std::string(law) + ", tolerance " + number(tolerance) + ", " + number(speed) + " m/s");
+        const Whole w =
+            run("gravity: [0, -9.81]\nground: {profiles: {table: {path: [[-1, 0], [0.1, 0]], material: right}}}\n"
+                "bodies: {ball: {rigid: {mass: 1, inertia: 4e-5}, profiles: {rim: {disc: [0, 0], radius: 10 mm}}}}\n"
+                "contacts: {hop: {between: [ball.rim, ground.table], " +
+                    std::string(law) + "}}\nstart: {ball: {at: [0, 10.5 mm], velocity: [" + number(speed) +
+                    ", -0.2]}}\nrun: {until: 2}\noutput: {every: 0.5, frames: 0}\n",
+                {GetParam().name, GetParam().words, tolerance, 0});
+        ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+        const std::vector<Impact>& all = w.run.impacts;
+        ASSERT_GE(all.size(), 4u);
+        for (std::size_t i = 1; i < all.size(); ++i) {
+          const double flight = 2 * all[i - 1].separation / g;
+          EXPECT_NEAR(all[i].begin - all[i - 1].end, flight, tolerance * flight) << i;
+        }
+        EXPECT_GT(speed * (all.back().end + 2 * all.back().separation / g), edge) << "it fell through the table";
+      }
+}
+
+}  // namespace
+}  // namespace pintle::long_step_test
