@@ -160,7 +160,9 @@ void pose(const System& system, double t, const VectorXd& y, Equations& eq) {
   }
 }
 
-void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
+namespace {
+
+void move_markers(const System& system, double t, const VectorXd& y, Equations& eq) {
   const double* s = y.data() + system.n();
   for (std::size_t i = 0; i < eq.points.size(); ++i) {
     const int body = eq.points[i].body;
@@ -176,11 +178,17 @@ void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
     const auto [joint, i] = eq.joint_rows[at(row)];
     eq.rows[at(joint)].Ct[i] = eq.rows[at(joint)].kappa[i] = 0;
   }
+}
+
+}  // namespace
+
+void speed(const System& system, double t, const VectorXd& y, Equations& eq) {
+  move_markers(system, t, y, eq);
   for (Index row = 0; row < eq.Cdot.size(); ++row) {
     const auto [joint, i] = eq.joint_rows[static_cast<std::size_t>(row)];
     eq.Cdot[row] = eq.rows[at(joint)].Ct[i];
   }
-  add_product(eq, s, eq.Cdot);
+  add_product(eq, y.data() + system.n(), eq.Cdot);
 }
 
 void update_mass(const System& system, const VectorXd& y, Equations& eq) {
@@ -277,7 +285,7 @@ bool evaluate(const System& system, const State& state, Equations& eq, VectorXd&
   pose(system, state.t, state.y, eq);
   factor(system, state.y, eq);
   if (!eq.regular) return false;
-  speed(system, state.t, state.y, eq);
+  move_markers(system, state.t, state.y, eq);
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
   return eq.regular;

@@ -61,22 +61,26 @@ std::string exact_text(double value, const Dimension& d) {
 }
 
 Jet Program::operator()(const Jet& t, const Jet* inputs) const {
-  std::array<Jet, most_stacked> stack;
+  union Operand {
+    Operand() {}  // not initialised: a law is evaluated at every instant
+    Jet jet;
+  };
+  std::array<Operand, most_stacked> stack;
   std::size_t top = 0;  // one past the last operand
   for (const Instruction& i : code) {
     switch (operand_count(i.op)) {
       case 0:
-        stack[top++] = i.op == Op::time ? t : i.op == Op::input ? inputs[static_cast<std::size_t>(i.value)] : Jet{i.value, 0, 0};
+        stack[top++].jet = i.op == Op::time ? t : i.op == Op::input ? inputs[static_cast<std::size_t>(i.value)] : Jet{i.value, 0, 0};
         break;
-      case 1: stack[top - 1] = apply(i.op, stack[top - 1]); break;
+      case 1: stack[top - 1].jet = apply(i.op, stack[top - 1].jet); break;
       case 2:
         --top;
-        stack[top - 1] = apply(i.op, stack[top - 1], stack[top]);
+        stack[top - 1].jet = apply(i.op, stack[top - 1].jet, stack[top].jet);
         break;
-      default: top -= 2; stack[top - 1] = stack[top - 1].value != 0 ? stack[top] : stack[top + 1];
+      default: top -= 2; stack[top - 1].jet = stack[top - 1].jet.value != 0 ? stack[top].jet : stack[top + 1].jet;
     }
   }
-  return stack[0];
+  return stack[0].jet;
 }
 
 int Formula::constant(const Quantity& q) { return append({.op = Op::constant, .dimension = q.dimension, .value = q.value}); }

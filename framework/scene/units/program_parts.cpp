@@ -4,12 +4,6 @@
 
 namespace pintle {
 
-int operand_count(Op op) {
-  if (op <= Op::input) return 0;
-  if (op <= Op::smooth) return 1;
-  return op < Op::choose ? 2 : 3;
-}
-
 std::size_t begin_of(const Program& program, std::size_t last) {
   for (int wanted = operand_count(program.code[last].op); wanted > 0; --wanted) last = begin_of(program, last - 1);
   return last;

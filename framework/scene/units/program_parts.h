@@ -7,7 +7,11 @@
 /// Decomposition of programs: an operand is the sequence of instructions that leaves it on the stack.
 namespace pintle {
 
-int operand_count(Op);
+constexpr int operand_count(Op op) {
+  if (op <= Op::input) return 0;
+  if (op <= Op::smooth) return 1;
+  return op < Op::choose ? 2 : 3;
+}
 /// The first instruction of the operand that ends with this one.
 std::size_t begin_of(const Program&, std::size_t last);
 /// Instructions [from, to) as a program.
