@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <optional>
+#include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -60,6 +62,22 @@ void validate_options(const std::string& name) {
            ", a script that Gmsh would run; move what is needed from it into a .geo, and remove it");
 }
 
+// Records the files that a script may include or merge, which the mesher reads in a process of its own: those that exist under a name in
+// quotation marks.
+void note_named_files(const fs::path& script, const std::string& text, const fs::path& folder, std::set<fs::path>& seen) {
+  static const std::regex quoted("\"([^\"\n]+)\"");
+  for (std::sregex_iterator name(text.begin(), text.end(), quoted), none; name != none; ++name) {
+    std::error_code error;
+    if (!fs::is_regular_file(script.parent_path() / (*name)[1].str(), error)) continue;
+    try {
+      const fs::path file = contained_file((*name)[1].str(), script.parent_path(), folder);
+      if (!seen.insert(file).second) continue;
+      if (file.extension() == ".geo") note_named_files(file, read_file(file, most_script_bytes), folder, seen);
+    } catch (const FileRefused&) {  // the mesher reports it
+    }
+  }
+}
+
 std::vector<std::string> strings(const std::vector<fs::path>& paths) {
   std::vector<std::string> out;
   for (const fs::path& p : paths) out.push_back(p.string());
@@ -107,6 +125,8 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
   task.folders = strings(readable_folders(read_from));
   task.unconfined = trust().geo;
   if (kind != ".geo") return mesh_elsewhere(task);
+  std::set<fs::path> seen;
+  note_named_files(path, text, read_from, seen);
   try {
     return mesh_elsewhere(task);
   } catch (const std::runtime_error& e) {

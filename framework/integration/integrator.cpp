@@ -210,7 +210,7 @@ bool Integrator::end_at_first_event(std::optional<EventInStep>& event) {
       events_.look_at_end(step_, evaluated_at_end());
       return true;
     }
-    if (ending == Events::Ending::impossible)
+    if (ending == Events::Ending::impossible || (halvings > most && !eq_.regular))
       stop("singular configuration while locating an event of " + events_.name(*event));
     else if (halvings > most)
       stop("an event of " + events_.name(*event) + " cannot be located; tighten run.tolerance");

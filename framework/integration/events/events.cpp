@@ -96,18 +96,18 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   double begin = t0, end = t1;
   const bool spent = spent_[at];
   if (spent && from.rate > 0) return std::nullopt;  // this is the previous passage
+  // A contact may end slightly before its gap opens, within its own accuracy.
+  const double left = t0 - 2 * from.value / from.rate;
+  const bool leaves = !spent && from.value > w.zero && from.rate < 0 && left < t1 && along(left).value < 0;
   if (!(to.value > 0)) {
     std::optional<double> between;
     if (from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
-    // A contact may end slightly before its gap opens, within its own accuracy.
-    const double left = t0 - 2 * from.value / from.rate;
-    const bool leaves = from.value > w.zero && from.rate < 0 && left < t1 && along(left).value < 0;
     const bool parted = leaves || ((spent || std::abs(from.value) <= w.zero) && from.rate < 0);
     if (!between && (parted || may_be_positive_between(from, to, t1 - t0))) between = positive_in_parts(along, t0, from, t1);
     if (!between && (spent || leaves || !(from.value > w.zero))) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
-  } else if (spent || from.value < 0) {  // it may have been positive earlier, and negative again
+  } else if (spent || leaves || from.value < 0) {  // it may have been positive earlier, and negative again
     end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
   }
   if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and decreasing: start the search after it has decreased
@@ -183,7 +183,7 @@ Events::Ending Events::end_at(const EventInStep& event, Stepper& stepper, const 
   for (int i = 0; i < most && t > t0; ++i) {
     if (!stepper.attempt(t - t0, norm, step, eq)) {
       step.h = h;
-      return event.watch.level ? Ending::missed : Ending::impossible;
+      return Ending::missed;
     }
     const Guard before = std::exchange(now, guard(event.at, step.to.state));
     if (group(event.at).met(places_[event.at].event, now)) {

@@ -20,6 +20,7 @@
 #include <thread>
 #include <vector>
 
+#include "files/noted.h"
 #include "files/trust.h"
 #include "meshes/gmsh_mesher.h"
 #include "meshes/limits.h"
@@ -126,6 +127,18 @@ TEST_F(Mesher, ADrawingReadsWhatLiesBelowTheSceneAndNoMore) {
   EXPECT_NE(said(write("c.geo", "Include \"link.geo\";\n" + face)), "");
   set_trust({{folder}, false});
   EXPECT_EQ(said(out), "accepted");
+}
+
+TEST_F(Mesher, TheFilesThatADrawingNamesAreNoted) {
+  fs::create_directory(folder / "scene/parts");
+  write("parts/deep.geo", square);
+  write("parts/inner.geo", "Include \"deep.geo\";\n");
+  write("other.geo", square);
+  const FilesNoted noted;
+  EXPECT_EQ(said(write("a.geo", "// not \"none.geo\"\nMerge \"parts/inner.geo\";\n" + face)), "accepted");
+  std::vector<fs::path> names;
+  for (const fs::path& path : noted.paths()) names.push_back(path.lexically_relative(folder / "scene"));
+  EXPECT_EQ(names, (std::vector<fs::path>{"a.geo", "parts/inner.geo", "parts/deep.geo"}));
 }
 
 TEST_F(Mesher, ADrawingThatIncludesItselfIsRefused) {
