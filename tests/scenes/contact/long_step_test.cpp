@@ -40,7 +40,7 @@ TEST_P(LongSteps, ABallHopsOnATableUntilItsEdge) {
         for (std::size_t i = 1; i < all.size(); ++i) {
           constexpr double slow = 1e-4, rounding = 1e-14;  // [m/s], of its height [m]
           const double flight = 2 * all[i - 1].separation / g;
-          if (all[i - 1].separation < slow) continue;
+          if (all[i - 1].separation < slow || speed * all[i].begin > edge) continue;
           EXPECT_NEAR(all[i].begin - all[i - 1].end, flight, tolerance * flight + rounding / slow) << i;
         }
         EXPECT_GT(speed * (all.back().end + 2 * all.back().separation / g), edge) << "it fell through the table";
