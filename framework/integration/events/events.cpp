@@ -129,7 +129,8 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
 
 std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& motion, const Equations* evaluated) {
   look_at_end(step, evaluated);
-  second_ = std::numeric_limits<double>::infinity();
+  constexpr double together = 1e-6;  // relative to the step: events so near in time may act in either order
+  second_ = std::numeric_limits<double>::infinity(), together_ = together * step.h;
   for (std::size_t k = 0; k < places_.size(); ++k)
     if (watched_[k].level) group(k).decide_at_zero(places_[k].event, step, motion, from_[k], to_[k]);
   const std::optional<EventInStep> at_end = passed_by_end(step);
@@ -150,10 +151,7 @@ std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& mo
   return out ? out : at_end;
 }
 
-bool Events::passes_another(const Step& step) const {
-  constexpr double together = 1e-6;  // relative to the step: events so near in time may act in either order
-  return second_ < step.to.state.t - together * step.h;
-}
+bool Events::passes_another(const Step& step) const { return second_ < step.to.state.t - together_; }
 
 std::optional<EventInStep> Events::due(const State& end) const {
   for (std::size_t k = 0; k < places_.size(); ++k) {

@@ -97,7 +97,8 @@ class Events {
   bool still_ = false;                  ///< nothing has moved between the last two events counted
   std::vector<unsigned char> spent_;    ///< the event has acted and its guard has not returned since
   std::vector<Wishes> wishes_;          ///< of each group
-  double second_ = 0;                   ///< when the second event of the step occurs, by dense output [s]
+  double second_ = 0;                   ///< when the second event of the step occurs, by dense output [s] …
+  double together_ = 0;                 ///< … and how long before the first it may really be [s]
   int here_ = 0;                        ///< events at the present instant
   int crowd_ = 0;                       ///< events with hardly any time passing or nothing moving between them …
   std::vector<unsigned char> crowded_;  ///< … which ones
