@@ -10,7 +10,6 @@ namespace pintle {
 namespace {
 
 constexpr std::size_t most_compared = 500;  // of more, the last
-constexpr double least_motion = 1e-12;      // in SI: less than any motion of a mechanism
 
 std::vector<double> ranges_of(const std::vector<SettledMotion>& motions) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -9,6 +9,8 @@ namespace pintle {
 /// A motion's recorded returns, each with the same signals.
 using Returns = std::vector<std::vector<double>>;
 
+inline constexpr double least_motion = 1e-12;  ///< in SI: less than any motion of a mechanism
+
 struct SettledMotion {
   Returns returns;
   std::vector<double> largest;  ///< magnitude of each signal in the whole motion

@@ -160,7 +160,7 @@ std::vector<FollowedValue> followed(const Nonlinear& study, const std::vector<Ro
     value.backwards = study.backwards(row.number);
     value.status = row.status, value.reason = row.reason, value.units = row.units;
     value.orbit = Orbit::of(row.values);
-    if (study.question.section) value.period = period_of(value.orbit.signals, row.units, study.question.section->tolerance);
+    if (study.question.section) value.period = period_of(value.orbit, row.units, study.question.section->tolerance);
   }
   if (study.basins) {
     std::vector<SettledMotion> motions;

@@ -12,6 +12,7 @@
 #include "framework/common/text.h"
 #include "framework/configuration/assemble.h"
 #include "framework/mechanism/trajectory.h"
+#include "framework/study/nonlinear/attractors.h"
 #include "framework/study/nonlinear/cycle.h"
 #include "framework/study/nonlinear/dimension.h"
 #include "framework/study/nonlinear/follower.h"
@@ -349,12 +350,11 @@ OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const Orbi
   return out;
 }
 
-std::size_t period_of(const std::vector<std::vector<double>>& signals, const std::vector<std::string>& units, double tolerance) {
+std::size_t period_of(const Orbit& orbit, const std::vector<std::string>& units, double tolerance) {
   constexpr double nothing = 1e-6;
   if (signals.empty()) return 0;
-  std::vector<double> size(signals[0].size(), 0.0);
-  for (const auto& one : signals)
-    for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::max(size[i], std::abs(one[i]));
+  const std::vector<std::vector<double>>& signals = orbit.signals;
+  std::vector<double> size = orbit.largest;
   std::map<std::string, double> largest;
   const auto unit = [&](std::size_t i) { return i < units.size() ? units[i] : ""; };
   for (std::size_t i = 0; i < size.size(); ++i) largest[unit(i)] = std::max(largest[unit(i)], size[i]);
@@ -362,7 +362,7 @@ std::size_t period_of(const std::vector<std::vector<double>>& signals, const std
   const auto comes_again = [&](std::size_t period) {
     for (std::size_t k = period; k < signals.size(); ++k)
       for (std::size_t i = 0; i < size.size(); ++i)
-        if (!(std::abs(signals[k][i] - signals[k - period][i]) <= tolerance * size[i])) return false;
+        if (!(std::abs(signals[k][i] - signals[k - period][i]) <= std::max(tolerance * size[i], least_motion))) return false;
     return true;
   };
   for (std::size_t period = 1; 2 * period <= signals.size(); ++period)

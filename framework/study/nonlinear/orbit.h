@@ -140,9 +140,9 @@ struct OrbitLimits {
 OrbitEnd follow_orbit(const CaseSource&, const Overrides&, const OrbitQuestion&, const Orbit* before, double x, BodyStore&,
                       const OrbitLimits&);
 
-/// The smallest number of returns after which all signals repeat within `tolerance`, relative to the largest magnitude of each; 0 if none does
-/// up to half of the returns. A signal smaller than a millionth of another with its unit counts as that large, since it may be only
-/// rounding.
-std::size_t period_of(const std::vector<std::vector<double>>& signals, const std::vector<std::string>& units, double tolerance);
+/// The smallest number of returns after which all signals repeat within `tolerance`, relative to the largest magnitude of each, the skipped
+/// returns included; 0 if none does up to half of the returns. A signal smaller than a millionth of another with its unit counts as that
+/// large, since it may be only rounding.
+std::size_t period_of(const Orbit&, const std::vector<std::string>& units, double tolerance);
 
 }  // namespace pintle

@@ -135,6 +135,21 @@ TEST(Nonlinear, ASignalThatIsRoundingHidesNoPeriod) {
 }
 
 // Just below the birth of its orbit the ball comes to rest in each period, where all deviations vanish; far below it rests for good.
+// A damped block at rest at each return, but for noise that does not repeat.
+TEST(Nonlinear, RestIsOfPeriodOne) {
+  const char* const block =
+      "bodies: {block: {rigid: {mass: 1 kg, inertia: 1}}}\njoints: {guide: {prismatic: [ground, block]}}\n"
+      "forces: {pull: {force: [\"-1 N/m*block.x - 1 N s/m*block.vx\", 0], at: block}}\n"
+      "start: {block: {x: 0.1 m, vx: 0}}\nrun: {until: 10 s, method: dopri5}\n";
+  for (const std::string noise : {"1e-7 m", "1e-14 m"}) {
+    const SweepFolder folder;
+    const bool moved = noise == "1e-7 m";  // otherwise all that is seen is the noise
+    const std::string study = "section: {every: 1 s, record: [" + std::string(moved ? "block.x + " : "") + noise +
+                              "*sin(1e6 rad/s*t)], transient: " + (moved ? "40" : "0") + ", returns: 8}\n";
+    EXPECT_EQ(follow_study(folder, block, study).values.at(0).period, 1u) << noise;
+  }
+}
+
 TEST(Nonlinear, ExponentsOfAMotionThatComesToRestAreDoubted) {
   const VibratingTable table;
   const std::string study = "lyapunov: {exponents: 1, every: 2*pi/omega, over: 20*2*pi/omega, transient: 5*2*pi/omega}\n";
