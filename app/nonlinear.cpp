@@ -340,11 +340,14 @@ int nonlinear(const Options& options) {
   if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
   if (!end.whole) {
     std::cerr << study.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
-              << study.size() << " values; the same command continues from here\n";
+              << study.size() << " values" << (values.empty() ? "" : ", which " + (out / "section.svg").string() + " shows")
+              << "; the same command continues from here\n";
     return stopped;
   }
   const std::vector<FollowedValue> values = followed(study, end.rows);
-  write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, values)));
+  if (!values.empty()) write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, values)));
+  if (const std::string warnings = warnings_text(end.rows, out / "warnings.csv"); !warnings.empty())
+    std::cerr << "warning: " << warnings << "\n";
   const auto has_some = [](const FollowedValue& v) { return v.status == "finished" || !v.orbit.t.empty() || !v.orbit.exponents.empty(); };
   if (options.json)
     std::cout << nonlinear_json(study, values);

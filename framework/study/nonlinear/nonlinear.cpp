@@ -158,6 +158,7 @@ class ChainWorkers {
       const OrbitEnd end =
           follow_orbit(study_.sweep.study.scene, study_.sweep.cases.overrides(k), study_.question, before, x_[k], bodies_, limits);
       row.status = end.status, row.reason = end.reason, row.values = end.orbit.numbers(), row.units = end.units;
+      row.warnings = end.warnings;
       row.t_end = end.orbit.end_t, row.steps = end.steps, row.impacts = end.impacts;
     } catch (const std::bad_alloc&) {
       row.status = status_text(Status::out_of_memory), row.reason = "there was not enough memory; follow fewer values at once (--threads)";
@@ -191,6 +192,7 @@ void write_results(const Nonlinear& study, const fs::path& folder, const std::ve
   if (study.basins) write_synced(folder / "attractors.csv", attractors_csv(study, values));
   if (study.question.lyapunov) write_synced(folder / "lyapunov.csv", lyapunov_csv(study, values));
   write_synced(folder / "timings.csv", timings_csv(rows));
+  if (const std::string warnings = warnings_csv(rows); !warnings.empty()) write_synced(folder / "warnings.csv", warnings);
   write_synced(folder / "values.csv", values_csv(study, values));
   write_synced(folder / "nonlinear.json", nonlinear_json(study, values));
 }
@@ -223,7 +225,7 @@ SweepEnd run_nonlinear(const Nonlinear& study, const fs::path& folder, const Swe
   ChainWorkers(study, *journal, before).work(settings, far, end);
   end.rows = ended();
   end.whole = end.rows.size() == study.size();
-  if (end.whole) write_results(study, folder, end.rows);
+  if (!end.rows.empty()) write_results(study, folder, end.rows);
   return end;
 }
 

@@ -50,7 +50,7 @@ struct Underway {
 };
 
 /// Computes the values missing in `folder` and writes section.csv, values.csv, orbits.csv, attractors.csv and lyapunov.csv beside the files of a sweep.
-/// They are identical to the bit for any number of workers and interruptions.
+/// They are identical to the bit for any number of workers and interruptions; those of an interrupted session have the values so far.
 /// @param far  called with the progress, before the settings' progress
 /// @throws as run_sweep
 SweepEnd run_nonlinear(const Nonlinear&, const std::filesystem::path& folder, const SweepSettings&,

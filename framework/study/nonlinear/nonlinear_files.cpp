@@ -321,6 +321,7 @@ std::string nonlinear_json(const Nonlinear& study, const std::vector<FollowedVal
               {"varied", headers},
               {"recorded", study.question.section ? signal_headers(study, values) : std::vector<std::string>()},
               {"values", all}};
+  if (values.size() < study.size()) out["values missing"] = study.size() - values.size();
   if (study.basins) out["attractors"] = found;
   return json_text(out) + "\n";
 }

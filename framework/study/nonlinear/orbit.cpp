@@ -135,6 +135,7 @@ class Following {
       scene_.run.until += longest_ + question.cycle->period * out_.orbit.interval;  // also started a period later, to check the laws
     if (question.lyapunov) scene_.run.until += times_.whole();
     model_ = build(scene_, bodies);
+    out_.warnings = model_.warnings;
     if (question.lyapunov) model_.scheme.switch_below = 0;  // neighbours are compared, so one method integrates all of them to the end
     start_ = start_of(model_.system, assemble(scene_, model_), before, clock_goes_on);
   }
@@ -352,8 +353,8 @@ OrbitEnd follow_orbit(const CaseSource& source, const Overrides& set, const Orbi
 
 std::size_t period_of(const Orbit& orbit, const std::vector<std::string>& units, double tolerance) {
   constexpr double nothing = 1e-6;
-  if (signals.empty()) return 0;
   const std::vector<std::vector<double>>& signals = orbit.signals;
+  if (signals.empty()) return 0;
   std::vector<double> size = orbit.largest;
   std::map<std::string, double> largest;
   const auto unit = [&](std::size_t i) { return i < units.size() ? units[i] : ""; };

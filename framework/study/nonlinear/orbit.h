@@ -115,7 +115,8 @@ struct Orbit {
 struct OrbitEnd {
   std::string status, reason;  ///< as of a case; also "too few returns" and "no periodic orbit"
   Orbit orbit;
-  std::vector<std::string> units;  ///< of the signals recorded
+  std::vector<std::string> units;     ///< of the signals recorded
+  std::vector<std::string> warnings;  ///< of its scene, one line each
   long steps = 0, impacts = 0;
 };
 

@@ -1,6 +1,7 @@
 // Poincaré sections, periods and Lyapunov exponents against closed forms.
 #include "framework/study/nonlinear/nonlinear.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -236,6 +237,37 @@ TEST(Nonlinear, AnInterruptedStudyGoesOnToTheSameFilesToTheByte) {
     EXPECT_FALSE(contents(cut / "out" / name).empty()) << name;
     EXPECT_EQ(contents(cut / "out" / name), contents(whole / "out" / name)) << name;
   }
+}
+
+TEST(Nonlinear, AnInterruptedStudyShowsWhatIsThere) {
+  const SweepFolder folder;
+  folder.write("scene.yaml", impact_oscillator);
+  folder.write("study.yaml",
+               "scene: scene.yaml\nsection: {every: 2*pi/omega, record: [block.x], transient: 2, returns: 3}\n"
+               "over: {omega: [2, 2.1, 2.2]}\n");
+  const Nonlinear study = read_nonlinear(folder / "study.yaml");
+  SweepSettings stopping;
+  stopping.progress = [](const SweepCount& c) { return c.done < 1; };
+  const ScarceThreads scarce(0);
+  const SweepEnd end = run_nonlinear(study, folder / "out", stopping);
+  EXPECT_FALSE(end.whole);
+  ASSERT_EQ(end.rows.size(), 1u);
+  const std::string values = contents(folder / "out/values.csv");
+  EXPECT_EQ(std::ranges::count(values, '\n'), 2) << values;
+  EXPECT_NE(contents(folder / "out/nonlinear.json").find("\"values missing\": 2"), std::string::npos);
+  run_nonlinear(study, folder / "out", {});
+  EXPECT_EQ(contents(folder / "out/nonlinear.json").find("values missing"), std::string::npos);
+}
+
+TEST(Nonlinear, WarnsOfWhatASceneDoubts) {
+  const SweepFolder folder;
+  const std::string crank =
+      "bodies: {crank: {rigid: {mass: 1 kg, inertia: 1}}}\njoints: {pin: {revolute: [ground, crank]}}\n"
+      "start: {crank: {angle: 30}}\nrun: {until: 1 s}\n";
+  const Followed done = follow_study(folder, crank, "section: {every: 0.1 s, record: [crank.angle], transient: 0, returns: 2}\n");
+  ASSERT_EQ(done.rows.at(0).warnings.size(), 1u);
+  EXPECT_NE(done.rows[0].warnings[0].find("30"), std::string::npos) << done.rows[0].warnings[0];
+  EXPECT_NE(contents(folder / "out/warnings.csv").find("30"), std::string::npos);
 }
 
 // By energy 1/12 a section of Hénon and Heiles' (1964) at x = 0, x' > 0 keeps H.
