@@ -193,6 +193,19 @@ std::vector<Measure> read_curves(const StudyFile& file) {
 
 namespace {
 
+/// The scene with the study's `set`. @throws SceneError  at the entry that the scene refuses
+Scene scene_as_set(const Node& root, const CaseSource& scene) {
+  try {
+    return common_scene(scene);
+  } catch (const SceneError& error) {
+    const std::string said = error.what();
+    for (const auto& [name, text] : scene.common)
+      if (const std::string mark = ": --set " + name + ": "; said.find(mark) != std::string::npos)
+        root.at("set").at(name).fail(said.substr(said.find(mark) + mark.size()));
+    throw;
+  }
+}
+
 /// Keys that other studies have in a section, but studies with `section` and `lyapunov` have beside these.
 void refuse_loose_limits(const Node& root) {
   if (root.has("section") || root.has("lyapunov")) return;
@@ -231,8 +244,10 @@ StudyFile read_study(const std::filesystem::path& path, const std::string& inste
   file.study.scene = read_case_source(scene_path, root.has("set") ? read_set(root.at("set")) : Overrides{});
   const Question question = file.study.scene.question = read_question(root);
   file.study.scene.situations = read_situations(root, file.study.scene);
-  const Scene common = common_scene(file.study.scene);
+  const Scene common = scene_as_set(root, file.study.scene);
   if (!root.has("measure")) {
+    if ((root.has("section") || root.has("lyapunov")) && instead.empty())
+      root.fail("is a study of nonlinear motion; run pintle nonlinear " + path.string());
     if (!root.has("goal") && instead.empty()) require_measures(file);
     return file;
   }

@@ -72,7 +72,7 @@ std::optional<Json> unsealed(std::string_view line) {
 std::string heading(std::uint64_t study) { return sealed({{"pintle sweep", fingerprint_text(study)}}); }
 
 std::string remedy_of_sweep(const fs::path& path) {
-  return "name another directory with --out, or remove " + path.parent_path().string() + " and run the sweep again";
+  return "name another directory with --out, or remove " + path.parent_path().string() + " and run the study again";
 }
 
 /// @returns false: there is no heading yet, because its process was killed while writing it
@@ -258,7 +258,7 @@ std::vector<Row> read_journals(const fs::path& folder, std::uint64_t study, std:
       const std::string where = path.string() + ":" + std::to_string(line);
       if (!row)
         throw SceneError(where +
-                         ": is damaged: its checksum or its content is wrong; remove this line, then its case is run again when the sweep "
+                         ": is damaged: its checksum or its content is wrong; remove this line, then its case is run again when the study "
                          "is continued, or " +
                          otherwise);
       if (row->number < 1 || row->number > cases)

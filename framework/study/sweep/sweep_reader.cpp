@@ -83,12 +83,16 @@ class CaseCheck {
 
   /// The part of an error about the value of name i, or about what it sets; empty if it is about something else.
   std::string about(std::size_t i, const std::string& refusal) const {
-    const std::string mark = ": --set " + sweep_.cases.names[i];
+    const std::string mark = ": --set ", &name = sweep_.cases.names[i];
     const auto at = refusal.find(mark);
     if (at == std::string::npos) return "";
-    const std::string rest = refusal.substr(at + mark.size());
-    if (rest.starts_with(": ")) return rest.substr(2);
-    return rest.starts_with('.') || rest.starts_with('[') ? rest.substr(1) : "";
+    const std::string rest = refusal.substr(at + mark.size()), of_part = name.substr(0, rest.find(": "));
+    if (of_part.size() < name.size() && name[of_part.size()] == '.' && rest.starts_with(of_part + ": "))
+      return rest.substr(of_part.size() + 2);
+    if (!rest.starts_with(name)) return "";
+    const std::string behind = rest.substr(name.size());
+    if (behind.starts_with(": ")) return behind.substr(2);
+    return behind.starts_with('.') || behind.starts_with('[') ? behind.substr(1) : "";
   }
 
   [[noreturn]] void fail(std::size_t i, const std::string& message) const {

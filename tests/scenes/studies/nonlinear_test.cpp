@@ -135,7 +135,6 @@ TEST(Nonlinear, ASignalThatIsRoundingHidesNoPeriod) {
   EXPECT_EQ(follow_study(folder, table.scene(0.98 * table.doubling(), 1.001), study).values.at(0).period, 1u);
 }
 
-// Just below the birth of its orbit the ball comes to rest in each period, where all deviations vanish; far below it rests for good.
 // A damped block at rest at each return, but for noise that does not repeat.
 TEST(Nonlinear, RestIsOfPeriodOne) {
   const char* const block =
@@ -151,6 +150,7 @@ TEST(Nonlinear, RestIsOfPeriodOne) {
   }
 }
 
+// Just below the birth of its orbit the ball comes to rest in each period, where all deviations vanish; far below it rests for good.
 TEST(Nonlinear, ExponentsOfAMotionThatComesToRestAreDoubted) {
   const VibratingTable table;
   const std::string study = "lyapunov: {exponents: 1, every: 2*pi/omega, over: 20*2*pi/omega, transient: 5*2*pi/omega}\n";
@@ -370,6 +370,8 @@ TEST(Nonlinear, LimitsStandWhereTheirStudyHasThem) {
   EXPECT_NE(of_a_sweep.find("under sweep"), std::string::npos) << of_a_sweep;
   const std::string none = said("section: {every: 1 s, record: X}\nlimit: 0 s\n", read_nonlinear);
   EXPECT_NE(none.find("study.yaml:3"), std::string::npos) << none;
+  const std::string of_nonlinear = said("section: {every: 1 s, record: X}\n", read_sweep);
+  EXPECT_NE(of_nonlinear.find("run pintle nonlinear"), std::string::npos) << of_nonlinear;
   const std::string steps = said("section: {every: 1 s, record: X}\nmost steps: 0\n", read_nonlinear);
   EXPECT_NE(steps.find("most steps"), std::string::npos) << steps;
 }
@@ -420,6 +422,9 @@ TEST(Nonlinear, WhatIsWrongIsNamedWithItsRemedy) {
            {"section: {every: 1 s, record: X, returns: 4}\norbit: {period: 4}", {"study.yaml:3", "orbit.period", "4", "record more"}},
            {"section: {every: 1 s, record: X}\norbit: {periods: 4}", {"study.yaml:3", "periods", "period"}},
            {"lyapunov: {every: 1 s}", {"study.yaml:2", "over"}},
+           {"set: {bodies.plat.rigid.mass: 2 kg}\nlyapunov: {every: 1 s, over: 2 s}",
+            {"study.yaml:2: set.bodies.plat", "Did you mean \"plate\""}},
+           {"section: {every: 1 s, record: X}\nbasins: {grid: {start.plat.x: [0 m, 1 m]}}", {"study.yaml:3", "Did you mean \"plate\""}},
            {"lyapunov: {every: 1 s, over: 0.4 s}", {"study.yaml:2", "lyapunov", "over is 0.4 s", "every", "many"}},
            {"lyapunov: {every: 1 s, over: 2 s, distance: 2}", {"study.yaml:2", "lyapunov.distance", "0 and 1"}},
            {"lyapunov: {every: 1 s, over: 2 s}\nsweep: {grid: {rho: [1]}}", {"study.yaml:3", "sweep", "leave it out"}}}) {

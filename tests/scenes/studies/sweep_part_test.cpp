@@ -245,7 +245,7 @@ TEST(SweepPart, ADamagedOrChangedPartIsRefused) {
     pintle_test::expect_says(said, {c.says, "; "});
     if (c.file == "journal-0.txt")
       pintle_test::expect_says(said, {"run the part again: pintle sweep", "--shard 1/2 --out " + parts[0].string()});
-    EXPECT_EQ(said.find("run the sweep again"), std::string::npos) << said;
+    EXPECT_EQ(said.find("run the study again"), std::string::npos) << said;
   }
 }
 
