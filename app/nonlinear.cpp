@@ -22,6 +22,11 @@ namespace fs = std::filesystem;
 
 std::string words_of_period(std::size_t period) { return period == 0 ? "no period found" : "period " + std::to_string(period); }
 
+/// ", backwards", if both directions are followed.
+std::string branch_words(const Nonlinear& study, const FollowedValue& value) {
+  return study.order != Order::both ? "" : value.backwards ? ", backwards" : ", forwards";
+}
+
 /// One row for each stretch of values that have the same period.
 void add_periods(const Nonlinear& study, const std::vector<FollowedValue>& values, Rows& rows) {
   for (std::size_t k = 0; k < values.size();) {
@@ -32,7 +37,7 @@ void add_periods(const Nonlinear& study, const std::vector<FollowedValue>& value
     while (end < values.size() && same(values[end])) ++end;
     std::string where = study.varies() ? values[k].parameters[0] : counted(values[k].orbit.t.size(), "return");
     if (end - k > 1) where += " to " + values[end - 1].parameters[0] + " (" + std::to_string(end - k) + " values)";
-    if (study.order == Order::both) where += values[k].backwards ? ", backwards" : ", forwards";
+    where += branch_words(study, values[k]);
     const bool finished = values[k].status == "finished";
     rows.emplace_back(finished ? words_of_period(values[k].period) : values[k].status, finished ? where : where + ": " + values[k].reason);
     k = end;
@@ -115,7 +120,7 @@ void add_orbit(const Cycle& cycle, Rows& rows) {
 }
 
 /// One row for each kind of stability with its number of values, and one for each loss of stability.
-void add_branch(const std::vector<FollowedValue>& values, Rows& rows) {
+void add_branch(const Nonlinear& study, const std::vector<FollowedValue>& values, Rows& rows) {
   for (const OrbitStability one : {OrbitStability::stable, OrbitStability::neutral, OrbitStability::unstable}) {
     const auto is_one = [&](const FollowedValue& v) { return v.orbit.cycle.found() && stability(v.orbit.cycle) == one; };
     if (const auto n = std::ranges::count_if(values, is_one); n > 0)
@@ -123,7 +128,7 @@ void add_branch(const std::vector<FollowedValue>& values, Rows& rows) {
   }
   for (const LossOfStability& loss : losses_of_stability(values))
     rows.emplace_back(crossing_words(loss.through), "near " + number(loss.x) + ", between " + values[loss.before].parameters[0] + " and " +
-                                                        values[loss.after].parameters[0]);
+                                                        values[loss.after].parameters[0] + branch_words(study, values[loss.before]));
 }
 
 void print(const Nonlinear& study, const SweepEnd& end, const std::vector<FollowedValue>& values, const fs::path& out) {
@@ -146,7 +151,7 @@ void print(const Nonlinear& study, const SweepEnd& end, const std::vector<Follow
   const auto chaotic = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.zero_one > nearer_to_one; });
   if (study.varies() && chaotic > 0)
     rows.emplace_back("0-1 test", "K nearer to 1 than to 0 at " + counted(static_cast<std::size_t>(chaotic), "value"));
-  if (study.varies() && study.question.cycle) add_branch(values, rows);
+  if (study.varies() && study.question.cycle) add_branch(study, values, rows);
   const auto grazes = std::ranges::count_if(values, [](const FollowedValue& v) { return v.orbit.impacts.grazing > 0; });
   if (study.varies() && grazes > 0) rows.emplace_back("grazing", "at " + std::to_string(grazes) + " values: see values.csv");
   const auto positive = std::ranges::count_if(values, [](const FollowedValue& v) {
@@ -338,14 +343,14 @@ int nonlinear(const Options& options) {
   }
   for (const std::string& note : end.notes) std::cerr << "note: " << note << "\n";
   if (!end.shortage.empty()) std::cerr << "warning: " << end.shortage << "\n";
+  const std::vector<FollowedValue> values = followed(study, end.rows);
+  if (!values.empty()) write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, values)));
   if (!end.whole) {
     std::cerr << study.sweep.study.file << ": " << (asked_to_stop() ? stopped_by() : "stopped") << " after " << end.rows.size() << " of "
               << study.size() << " values" << (values.empty() ? "" : ", which " + (out / "section.svg").string() + " shows")
               << "; the same command continues from here\n";
     return stopped;
   }
-  const std::vector<FollowedValue> values = followed(study, end.rows);
-  if (!values.empty()) write_synced(out / "section.svg", picture_of(study, values, signal_headers(study, values)));
   if (const std::string warnings = warnings_text(end.rows, out / "warnings.csv"); !warnings.empty())
     std::cerr << "warning: " << warnings << "\n";
   const auto has_some = [](const FollowedValue& v) { return v.status == "finished" || !v.orbit.t.empty() || !v.orbit.exponents.empty(); };

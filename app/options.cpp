@@ -1,6 +1,6 @@
 #include "app/options.h"
 
-#include <iomanip>
+#include <algorithm>
 #include <ostream>
 #include <thread>
 
@@ -57,9 +57,12 @@ double instant(const Options& options) {
 std::string number(double x, int digits) { return number_text(x, digits); }
 
 void print_rows(std::ostream& out, const Rows& rows) {
+  const auto characters = [](const std::string& utf8) {
+    return static_cast<std::size_t>(std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  };
   std::size_t width = 0;
-  for (const auto& row : rows) width = std::max(width, row.first.size());
-  for (const auto& [left, right] : rows) out << "  " << std::left << std::setw(static_cast<int>(width) + 2) << left << right << "\n";
+  for (const auto& row : rows) width = std::max(width, characters(row.first));
+  for (const auto& [left, right] : rows) out << "  " << left << std::string(width + 2 - characters(left), ' ') << right << "\n";
 }
 
 fs::path study_directory(const Options& options, const std::string& suffix) {

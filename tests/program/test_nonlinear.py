@@ -82,6 +82,33 @@ class Nonlinear(unittest.TestCase):
             rows = (self.place / "out" / file).read_text().splitlines()
             self.assertEqual(table["all"], len(rows) - 1, file)
 
+    # x'' + b x' + x = cos(2 t): the pair of multipliers leaves the unit circle at b = 0.
+    def test_losses_of_stability_name_their_branch(self):
+        (self.place / "lorenz.yaml").write_text(
+            "parameters: {b: 0.1}\nbodies: {block: {rigid: {mass: 1 kg, inertia: 1}}}\njoints: {guide: {prismatic: [ground, block]}}\n"
+            'forces: {pull: {force: ["1 N*cos(2 rad/s*t) - 1 N/m*block.x - b*1 N s/m*block.vx", 0], at: block}}\n'
+            "run: {until: 100 s, tolerance: 1e-9, method: verner87}\n")
+        done = self.end_of("section: {every: pi*1 s, record: [block.x], transient: 0, returns: 3}\norbit: {}\nover: {b: [0.1, -0.1]}\n"
+                           "direction: both\n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for branch in ("forwards", "backwards"):
+            self.assertRegex(done.stdout, f"near .*, between .* and .*, {branch}")
+
+    def test_an_interrupted_study_is_a_picture_and_a_page(self):
+        study = self.study("section: {every: rho^6*1 s, record: [X], transient: 0, returns: 3}\nover: {rho: [1, 100]}\n")
+        _, code = interrupted([*study, "--out", "out"], self.place, b"1 of 2 values, the next at return ")
+        self.assertEqual(code, 6)
+        self.assertIn("<circle", (self.place / "out" / "section.svg").read_text())
+        done = subprocess.run([pintle, "report", "out"], cwd=self.place, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_columns_are_aligned_whatever_letters_their_names_have(self):
+        (self.place / "study.yaml").write_text("scene: lorenz.yaml\nmeasure: {größe: max X, other: max Y}\nsweep: {grid: {rho: [28]}}\n")
+        done = subprocess.run([pintle, "sweep", "study.yaml"], cwd=self.place, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [line for line in done.stdout.splitlines() if line.startswith(("  größe", "  other"))]
+        self.assertEqual(*[re.search(r"\S  +", row).end() for row in rows])
+
     def test_who_waits_is_told_how_far_a_value_is(self):
         _, code = interrupted(self.study("section: {every: 100 s, record: X, transient: 0, returns: 1000000}\n"), self.place,
                               b"0 of 1 values, the next at return ", b" left")
