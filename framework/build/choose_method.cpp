@@ -307,7 +307,8 @@ void choose(const Scene& scene, const System& system, const RateSpectrum& s, Sch
                   (states_alone ? "only steps show how fast the states of the scene change" : reason_of(s, d, scheme, rigid));
   if (is_implicit) return;
   if (scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
-  if (!rigid && !s.parts.empty() && scene.run.constraints == "projection" && d.implicit > 0) scheme.switch_below = 0.5 / d.implicit;
+  if (!rigid && !s.parts.empty() && scene.run.constraints == "projection" && d.implicit > 0)
+    scheme.switch_below = s.struck ? 0.5 / d.implicit : scene.run.until;
 }
 
 }  // namespace

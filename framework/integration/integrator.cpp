@@ -13,6 +13,7 @@
 #include "framework/common/worse.h"
 #include "framework/integration/events/friction_events.h"
 #include "framework/integration/law_changes.h"
+#include "framework/integration/trial.h"
 
 namespace pintle {
 
@@ -20,6 +21,7 @@ using Index = Eigen::Index;
 
 namespace {
 
+constexpr std::string_view implicit_method = "generalized-alpha";
 constexpr double least_step = 4e-16;  // relative to the time: shorter steps are lost in its last digits
 
 // Sets a time equal to an end that is so near that no step fits in between.
@@ -120,6 +122,7 @@ double Integrator::kink_ahead(double wish) const {
 bool Integrator::begin_step(double until) {
   std::swap(step_.from, step_.to);
   step_.struck = false;
+  if (!go_back()) return false;
   if (!pass_law_change()) return false;
   step_.to.state.t = step_.from.state.t;
   if (control_.wish() == 0) control_.wish_for(first_wish(until - step_.from.state.t));
@@ -282,15 +285,37 @@ void Integrator::look_at_end() {
   worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
 }
 
+long Integrator::cost() const { return cost_of(eq_, implicit()); }
+
 // Called after a step that did not end at an event.
 bool Integrator::switch_method() {
   events_.keep_end();
-  if (!switching_.held_by_stability(*stepper_, scheme_, step_)) return true;
-  stepper_ = make_stepper("generalized-alpha", system_, scheme_, eq_);
+  if (!switching_.held_by_stability(*stepper_, scheme_, step_, cost())) return true;
+  constexpr double enough = 2;  // times cheaper; what an explicit pair would do more accurately
+  const auto ahead = [&](const State& at) {
+    return change_at(scheme_, at.t) ? 0 : std::min(law_end(scheme_, at.t, true) - at.t, turn_ahead_.time(system_, at));
+  };
+  const double pace =
+      trial_pace(implicit_method, system_, scheme_, norm_, eq_, step_.to, step_.h, ahead, std::clamp(counts_.steps / 16, 50L, 500L));
+  if (pace < enough * switching_.pace()) return true;
+  switching_.go_implicit(*stepper_, step_, pace / switching_.pace(), cost_of(eq_, true));
+  return take(implicit_method, step_.to);
+}
+
+// Called before a step, when the last one has been sampled.
+bool Integrator::go_back() {
+  if (!switching_.goes_back(*stepper_, step_.from.state.t, cost())) return true;
+  step_.from.memory = step_.to.memory = {};
+  control_.wish_for(switching_.step_of_pair());
+  return take(switching_.pair(), step_.from);
+}
+
+bool Integrator::take(std::string_view method, Instant& node) {
+  stepper_ = make_stepper(method, system_, scheme_, eq_);
   control_.forget_errors();
   events_.forget_wishes();
   events_.forget_end();
-  return stepper_->project(step_.to, eq_) || stop("singular configuration");
+  return stepper_->project(node, eq_) || stop("singular configuration");
 }
 
 bool Integrator::may_step(double until) {

@@ -53,7 +53,8 @@ class Integrator {
   Counts counts() const;
   double worst_position() const { return worst_position_; }  ///< largest scaled |C| at a step's end
   double worst_velocity() const { return worst_velocity_; }
-  bool implicit() const { return stepper_->traits().implicit; }         ///< at present
+  bool implicit() const { return stepper_->traits().implicit; }  ///< at present
+  bool was_implicit() const { return implicit() || switching_.went_implicit(); }
   double held_by_stability() const { return switching_.held_share(); }  ///< share of the explicit steps limited by stability
   const std::string& switched() const { return switching_.why(); }      ///< when and why another method took over; otherwise empty
 
@@ -81,6 +82,9 @@ class Integrator {
   void hold_laws();
   void look_at_end();
   bool switch_method();
+  bool go_back();
+  bool take(std::string_view method, Instant&);
+  long cost() const;
   bool sees_ends_alone() const;
   void look_inside();
   DenseOutput motion() { return {*stepper_, step_, held_, dense_}; }

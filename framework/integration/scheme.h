@@ -41,8 +41,8 @@ struct Scheme {
   std::vector<std::vector<LawBend>> bends = {};  ///< per law, its smooth pieces that are not linear, in order
   long max_steps = 100'000'000;
   double rho = 0.8;         ///< of generalised-α: spectral radius at infinite frequency, 0 to 1
-  double switch_below = 0;  ///< generalised-α takes over if stability, not accuracy, limits explicit steps
-                            ///< to less than this [s]; 0: never
+  double switch_below = 0;  ///< generalised-α is tried where stability, not accuracy, limits explicit
+                            ///< steps to less than this [s]; 0: never
   std::string reason = {};  ///< reason for this scheme, in words
   std::string stiff = {};   ///< the fastest decay, in words
   /// Each creates a group of events for one integrator, in addition to those of the contacts.

@@ -58,8 +58,10 @@ class Stepper {
   virtual bool near_singular(const Equations&) const = 0;
   /// Whether a stage of the step was much nearer to a singular configuration than its end, too near for the tolerance.
   virtual bool strayed_near_singular(const Step&, const Equations&) const = 0;
-  /// Whether the step is as long as stability allows.
+  /// Whether the step is as long as stability allows in a fast decay.
   virtual bool at_stability_limit(const Step&) const = 0;
+  /// Whether it is as long, or nearly, as stability allows in an undamped oscillation.
+  virtual bool swings_at_limit(const Step&) const = 0;
   virtual std::string trouble() const = 0;
   virtual int partitions() const = 0;
 

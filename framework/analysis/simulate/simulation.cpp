@@ -187,7 +187,7 @@ Run Simulation::finish() {
   warn_of_pushing(system_, run_);
   warn_of_lifting(system_, run_);
   warn_of_stiffness(scene_, model_, integrator_.held_by_stability(), run_);
-  warn_of_coarse_forces(model_, integrator_.implicit(), run_);
+  warn_of_coarse_forces(model_, integrator_.was_implicit(), run_);
   slow_.warn(system_, run_.energy_in_play, run_.warnings);
   undecided_.warn(run_.warnings);
   monitor_.warn(run_.warnings);
@@ -196,7 +196,7 @@ Run Simulation::finish() {
   run_.worst_position = integrator_.worst_position();
   run_.worst_velocity = integrator_.worst_velocity();
   run_.seconds = seconds_ + processor_time() - begin;
-  check_energy_balance(scene_, model_, integrator_.implicit(),
+  check_energy_balance(scene_, model_, integrator_.was_implicit(),
                        rounding_energy(system_, integrator_.state(), integrator_.equations(), scene_.run.until), run_);
   return std::move(run_);
 }

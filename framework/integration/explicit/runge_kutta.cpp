@@ -89,7 +89,12 @@ bool RungeKutta::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
 
 bool RungeKutta::at_stability_limit(const Step& step) const {
   constexpr double edge = 0.9;
-  return stages_.stiffness(system_, step) > edge * stages_.tableau().reach;
+  return stages_.stiffness(system_, step).decay > edge * stages_.tableau().reach;
+}
+
+bool RungeKutta::swings_at_limit(const Step& step) const {
+  constexpr double edge = 0.25;  // the limit is 0.2 to 0.5 of that on the real axis, and more with some damping
+  return stages_.stiffness(system_, step).swing > edge * stages_.tableau().reach;
 }
 
 void RungeKutta::save(Writer& out) const { out.whole(stages_); }

@@ -152,25 +152,33 @@ void Stages::refine_cubics(const System& system, const Step& step, State& out) c
     if (d[i] != 0) out.y.tail(cubic) += (bend * d[i]) * (i + 1 < d.size() ? k_[i] : step.dy_end()).tail(cubic);
 }
 
-double Stages::stiffness(const System& system, const Step& step) const {
+// The difference of all rates over that of all values is the rate of a decay. Of an oscillation it shows anything between 1 and the square
+// of the rate, by its phase; that square is the difference of the accelerations over that of the positions.
+Stages::Stiffness Stages::stiffness(const System& system, const Step& step) const {
   const std::size_t last = k_.size() - (tableau_.closes ? 2 : 1);
   std::size_t inner = last;  // the last stage at the time of the step's end
   while (inner > 0 && tableau_.c[inner] != 1) --inner;
-  if (inner == 0) return 0;
+  if (inner == 0) return {};
   const auto stage = [&](Index i) {
     if (inner == last) return stage_.y[i];
     double change = 0;
     for (std::size_t j = 0; j < tableau_.a[inner].size(); ++j) change += tableau_.a[inner][j] * k_[j][i];
     return step.from.state.y[i] + step.h * change;
   };
-  double moved = 0, changed = 0;
-  const auto see = [&](Index i, double scale) {
-    moved += std::pow((step.to.state.y[i] - stage(i)) / scale, 2);
-    changed += std::pow((step.to.dy[i] - k_[inner][i]) / scale, 2);
-  };
-  for (Index i = 0; i < 2 * system.n(); ++i) see(i, system.scale[i % system.n()]);
-  for (Index i = 0; i < system.n_x(); ++i) see(system.x_begin() + i, system.x_scale[i] > 0 ? system.x_scale[i] : system.length);
-  return moved > 0 ? step.h * std::sqrt(changed / moved) : 0;
+  const auto moved = [&](Index i, double scale) { return std::pow((step.to.state.y[i] - stage(i)) / scale, 2); };
+  const auto changed = [&](Index i, double scale) { return std::pow((step.to.dy[i] - k_[inner][i]) / scale, 2); };
+  double places = 0, speeds = 0, accelerations = 0, states = 0, rates = 0;
+  for (Index i = 0, n = system.n(); i < n; ++i) {
+    const double scale = system.scale[i];
+    places += moved(i, scale), speeds += moved(n + i, scale), rates += changed(i, scale), accelerations += changed(n + i, scale);
+  }
+  for (Index i = 0; i < system.n_x(); ++i) {
+    const double scale = system.x_scale[i] > 0 ? system.x_scale[i] : system.length;
+    states += moved(system.x_begin() + i, scale), rates += changed(system.x_begin() + i, scale);
+  }
+  const double all = places + speeds + states;
+  return {.decay = all > 0 ? step.h * std::sqrt((rates + accelerations) / all) : 0,
+          .swing = places > 0 ? step.h * std::pow(accelerations / places, 0.25) : 0};
 }
 
 }  // namespace pintle

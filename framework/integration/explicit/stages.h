@@ -40,9 +40,12 @@ class Stages {
   bool near_singular() const { return weak_ || (tableau_.order > 5 && least_ < 0.1 * most_); }
   /// Smallest pivot of the last attempt's stages; 0: a stage was in a singular configuration.
   double closest() const { return least_; }
-  /// h times the fastest rate in the last attempt, from the difference between its last inner stage at the end time and the step's end
-  /// [HairerWanner1996, IV.2]; 0 for a pair without such a stage.
-  double stiffness(const System&, const Step&) const;
+  /// h times the fastest rate in the last attempt, of a decay and of an oscillation, from the difference between its last inner stage at the
+  /// end time and the step's end [HairerWanner1996, IV.2]; 0 for a pair without such a stage.
+  struct Stiffness {
+    double decay = 0, swing = 0;
+  };
+  Stiffness stiffness(const System&, const Step&) const;
   /// The data besides the nodes that the next steps depend on.
   template <class A>
   void archive(A& x) {

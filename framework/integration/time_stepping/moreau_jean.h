@@ -25,6 +25,7 @@ class MoreauJean final : public Stepper {
   bool near_singular(const Equations&) const override { return false; }
   bool strayed_near_singular(const Step&, const Equations&) const override { return false; }
   bool at_stability_limit(const Step&) const override { return false; }
+  bool swings_at_limit(const Step&) const override { return false; }
   std::string trouble() const override { return trouble_; }
   int partitions() const override { return 0; }
   void save(Writer&) const override;

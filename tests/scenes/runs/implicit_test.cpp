@@ -194,6 +194,57 @@ TEST(Auto, AtALooseToleranceAFlexibleCouplerEndsAsNearAsItsMethodPromises) {
   EXPECT_LT(relative_difference(chosen.column("crank.angle [rad]"), run(s).column("crank.angle [rad]")), std::pow(1e-4, 2.0 / 3));
 }
 
+/// Evaluations of a run, which must end.
+long evaluations(const Whole& w) {
+  EXPECT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+  return w.run.counts.evaluations;
+}
+Whole by(pintle::Scene s, const char* method, double tolerance) {
+  s.run.method = method, s.run.tolerance = tolerance;
+  return run(s);
+}
+
+/// A rod on a hinge, and a disc on a stiff shaft at its end, which rings after a blow for a part of the run.
+pintle::Scene struck_shaft() {
+  return pintle::read_scene_text(
+      "bodies: {rod: {rigid: {mass: 0.5, inertia: 0.01}, points: {O: [-0.2, 0], P: [0.2, 0]}},\n"
+      "  disc: {rigid: {mass: 0.5, inertia: 0.01}, pose: {at: [0.2, 0]}}}\n"
+      "joints: {hinge: {revolute: [ground, rod.O]}, axle: {revolute: [rod.P, disc]}}\n"
+      "parameters: {blow: 1e5 N m}\n"
+      "forces: {push: {torque: 1, on: rod}, shaft: {torsion spring: [rod, disc], stiffness: 1e8, damping: 30},\n"
+      "  there: {torque: \"blow*if(t < 0.05 s, 0, 1)\", on: disc}, back: {torque: \"-blow*if(t < 0.05 s, 0, 1)\", on: rod}}\n"
+      "run: {until: 0.15}\noutput: {frames: 0, every: 0.01}\n",
+      "scene.yaml");
+}
+
+// The slider-crank brought up to speed, its coupler with many shapes: those that do not ring hold explicit steps by stability alone.
+TEST(Auto, GoesOnImplicitlyWhereATrialIsCheaper) {
+  FlexibleBeam beam;
+  beam.elements = 16, beam.modes = "{frame: chord, count: 24}", beam.more = "damping: {ratios: 0.02}";
+  const pintle::Scene s = scene_of(text(FlexibleCrank{.coupler = text(beam), .speed = 0, .until = 0.015}) +
+                                   "drivers: {motor: {angle: [ground, crank], law: \"150*if(t < 0.01, t^2/0.02, t - 0.005)\"}}\n");
+  const Whole chosen = by(s, "auto", 1e-6), pair = by(s, "verner87", 1e-6);
+  EXPECT_NE(chosen.model.scheme.tableau, nullptr);
+  EXPECT_NE(chosen.run.switched.find("generalized-alpha"), std::string::npos) << chosen.model.scheme.reason;
+  EXPECT_LT(2 * evaluations(chosen), evaluations(pair));
+  EXPECT_LT(apart(chosen, pair, "coupler.B"), allowed(1e-6) * 0.17);
+}
+
+// What the blow leaves is far above the tolerance, and generalised-alpha would follow it by more evaluations.
+TEST(Auto, GoesBackToItsPairWhileAccuracyLimitsTheSteps) {
+  const Whole chosen = by(struck_shaft(), "auto", 1e-5);
+  pintle_test::expect_says(chosen.run.switched, {"generalized-alpha from", "; dopri5 from t = 0.05", "; generalized-alpha from"});
+  EXPECT_LT(2 * evaluations(chosen), evaluations(by(struck_shaft(), "dopri5", 1e-5)));
+  EXPECT_LT(evaluations(chosen), 1.2 * evaluations(by(struck_shaft(), "generalized-alpha", 1e-5)));
+  EXPECT_LT(std::abs(chosen.run.worst_unexplained), chosen.run.ledger_bound * chosen.run.energy_in_play);
+}
+
+TEST(Auto, StaysWithItsPairWhereAccuracyLimitsTheSteps) {
+  const Whole chosen = by(damped_coupler("auto", 1e-9), "auto", 1e-9);
+  EXPECT_EQ(chosen.run.switched, "");
+  EXPECT_LT(evaluations(chosen), 1.01 * evaluations(by(damped_coupler("auto", 1e-9), pintle::name(chosen.model.scheme).c_str(), 1e-9)));
+}
+
 TEST(Auto, TakesTheSameMethodWhateverIsWrittenOut) {
   const pintle::Scene smooth = scene(SliderCrank{.clearance = 0, .method = "auto"});
   for (const double until : {0.1, 1.0, 3.0, 10.0})
