@@ -9,7 +9,7 @@
 #include "framework/configuration/assemble.h"
 #include "framework/scene/yaml/reader.h"
 
-namespace pintle {
+namespace pintle::method_of_states_test {
 namespace {
 
 struct Whole {
@@ -40,7 +40,7 @@ TEST(Auto, FollowsOwnStatesThatAreNotStiffByAnExplicitPair) {
                                           "20/F", tolerance) +
                              "parameters: {F: " + fast + "}\n");
       EXPECT_NE(w.model.scheme.tableau, nullptr) << w.model.scheme.reason;
-      EXPECT_NE(w.model.scheme.reason.find("own states"), std::string::npos) << w.model.scheme.reason;
+      EXPECT_NE(w.model.scheme.reason.find("states of the scene"), std::string::npos) << w.model.scheme.reason;
       EXPECT_EQ(w.run.switched, "") << fast << " " << tolerance;
     }
 }
@@ -57,4 +57,4 @@ TEST(Auto, FollowsStiffOwnStatesByAnImplicitMethodOnceStepsTell) {
 }
 
 }  // namespace
-}  // namespace pintle
+}  // namespace pintle::method_of_states_test
