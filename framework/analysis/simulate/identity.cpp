@@ -53,10 +53,11 @@ class Sum : public ValueWriter<Sum> {
   }
   void add(const ContactPair& p) {
     const auto& [a, b, gap, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
-                 pressure, journal, flank, written_on_a] = p;
+                 pressure, journal, flank, written_on_a, massless] = p;
     add(a, b, gap.a, gap.b, normal, friction, sliding, slowest, follows, link, pair, pairs, profiles, deepest, extent, beyond, rigid, slack,
         written_on_a);
     if (flank) add(*flank);
+    if (massless) add(Eigen::MatrixXd(massless->a), Eigen::MatrixXd(massless->b));
   }
   void add(const Flank& flank) {
     const auto& [teeth, side, half, angle] = flank;

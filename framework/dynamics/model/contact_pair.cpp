@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/common/result_columns.h"
+#include "framework/dynamics/model/massless_boundary.h"
 
 namespace pintle {
 
@@ -91,6 +92,10 @@ ContactEffect evaluate(const ContactPair& pair, const MarkerMotion& a, const Mar
   if (pair.profiles && impact_rate <= 0) return out;
   out.gap = gap_between(pair, moving_point(a), moving_point(b));
   if (impact_rate <= 0 || is_held(pair)) return out;
+  if (pair.massless) {
+    if (out.gap.depth > 0) press_massless(pair, moving_point(a), moving_point(b), impact_rate, out);
+    return out;
+  }
   const double slip = sliding_speed(pair, out.gap);
   if (is_rigid(pair)) {
     out.normal.force = dry.load;
@@ -274,6 +279,7 @@ void move_to_carriers(const std::array<Vector2d, 2>& arm, const std::array<doubl
 WrenchTangent wrench_tangent(const ContactPair& pair, const ContactEffect& now, const MarkerMotion& a, const MarkerMotion& b) {
   if (now.normal.force == 0) return WrenchTangent(2);
   if (pair.flank) return wrench_tangent(*pair.flank, now.normal, moving_point(a), moving_point(b));
+  if (pair.massless) return massless_tangent(pair, now, moving_point(a), moving_point(b));
   const Gap& gap = now.gap;
   WrenchTangent out = at_middles(pair, now, rows_of(pair, gap, speed_of_middles(gap, a, b), a.w, b.w));
   if (pair.profiles) move_to_carriers({gap.arm_a, gap.arm_b}, {a.w, b.w}, now.on_a.head<2>(), out);

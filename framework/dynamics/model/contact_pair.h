@@ -26,6 +26,11 @@ struct RigidImpact {
   bool poisson = false;
 };
 
+/// Displacement of the centres of a journal and its bearing per force on them, beyond that of the shapes of their bodies; body axes [m/N].
+struct ResidualFlexibility {
+  Eigen::Matrix2d a = Eigen::Matrix2d::Zero(), b = Eigen::Matrix2d::Zero();
+};
+
 /// Two pieces of surface that may touch at one point: a journal a in a bearing b, which is a clearance joint; pieces of two profiles; or
 /// the flanks of teeth with backlash. Depending on its model it is a contact without constraint rows or, for a clearance joint with `link`,
 /// a massless link between the two centres: one constraint row, held by a joint of the system.
@@ -52,6 +57,8 @@ struct ContactPair {
   bool journal = false;                         ///< for profiles: a is the journal of an open bearing b
   std::optional<Flank> flank = {};              ///< then the pieces are unused
   bool written_on_a = false;                    ///< results give the force on a, otherwise on b
+  /// Of a clearance joint whose bodies have a massless boundary: massless_boundary.h.
+  std::optional<ResidualFlexibility> massless = {};
 };
 
 /// State of dry friction of a contact or joint, and of a rigid contact, with the force that the accelerations determine.

@@ -42,7 +42,7 @@ double stored_at_onset(const System& system, const Switch& s, const State& state
     if (is_rigid(pair) || !(onset_of(system, c, state).value > 0)) continue;
     const Guard gap = gap_of(system, c, state);
     const double latched = std::max({gap.rate, pair.slowest_impact, pair.profiles ? latched_at(system, pair, gap.value) : 0});
-    sum += evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).stored;
+    sum += normal_force(system, c, state, latched).stored;
   }
   return sum;
 }

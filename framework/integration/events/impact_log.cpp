@@ -5,6 +5,7 @@
 
 #include "framework/common/index.h"
 #include "framework/dynamics/equations/meshing.h"
+#include "framework/dynamics/model/massless_boundary.h"
 #include "framework/integration/stepper.h"
 
 namespace pintle {
@@ -60,7 +61,9 @@ void ImpactLog::begin(int contact, const State& before, const Guard& gap, double
   Impact impact{.contact = contact, .begin = begin, .approach = latched};
   if (!is_rigid(pair) && (gap.value > 0 || begins_with_jump(pair.normal))) {
     impact.deepest = std::max(gap.value, 0.0);  // a start with overlap, or a force that begins with a jump
-    impact.peak_force = evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)).force;
+    impact.peak_force = (pair.massless ? normal_force(system_, contact, before, latched)
+                                       : evaluate(pair.normal, approach_of(pair, gap.value, gap.rate, latched)))
+                            .force;
   }
   loss_at_begin_[at(contact)] = loss(contact, before);
   impacts_.push_back(impact);
@@ -103,18 +106,23 @@ void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& 
     return;
   }
   const double t0 = step.from.state.t, latched = step.from.state.impact_rate[at(c)];
-  const auto inside = [&](double x) { return gap_of(system_, c, motion.at(t0 + x * step.h)); };
-  const auto force = [&](const Guard& now) {
+  const auto inside = [&](double x) { return motion.at(t0 + x * step.h); };
+  const auto force = [&](const State& state, const Guard& now) {
+    if (pair.massless && latched > 0) return normal_force(system_, c, state, latched);
     return now.value > 0 && latched > 0 ? evaluate(pair.normal, approach_of(pair, now.value, now.rate, latched)) : NormalForce{};
   };
-  const NormalForce first = force(from), last = force(to);
+  const NormalForce first = force(step.from.state, from), last = force(step.to.state, to);
   impact.deepest = std::max(impact.deepest, to.value);
-  if (from.rate > 0 && to.rate < 0) impact.deepest = std::max(impact.deepest, greatest([&](double x) { return inside(x).value; }));
+  if (from.rate > 0 && to.rate < 0)
+    impact.deepest = std::max(impact.deepest, greatest([&](double x) { return gap_of(system_, c, inside(x)).value; }));
   impact.peak_force = std::max(impact.peak_force, last.force);
   const double mean = step.h > 0 ? (to.rate - from.rate) / step.h : 0;
   const auto rising = [&](const NormalForce& f, const Guard& now) { return f.d_depth * now.rate + f.d_rate * mean > 0; };
   if (step.h > 0 && last.force > 0 && !rising(last, to) && (first.force == 0 || rising(first, from)))
-    impact.peak_force = std::max(impact.peak_force, greatest([&](double x) { return force(inside(x)).force; }));
+    impact.peak_force = std::max(impact.peak_force, greatest([&](double x) {
+                                   const State state = inside(x);
+                                   return force(state, gap_of(system_, c, state)).force;
+                                 }));
   impact.lost = loss(c, step.to.state) - loss_at_begin_[at(c)];
 }
 
@@ -161,8 +169,16 @@ ContactEffect pressing(const System& system, int contact, const State& state) {
   if (is_rigid(pair))
     out.normal.force = state.friction[at(contact)].load;
   else if (const double latched = state.impact_rate[at(contact)]; latched > 0)
-    out.normal = evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, latched));
+    out.normal = pair.massless ? normal_force(system, contact, state, latched)
+                               : evaluate(pair.normal, approach_of(pair, out.gap.depth, out.gap.rate, latched));
   return out;
+}
+
+NormalForce normal_force(const System& system, int contact, const State& state, double latched) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const Facing now = facing(system, contact, state);
+  if (!pair.massless) return evaluate(pair.normal, approach_of(pair, now.gap.depth, now.gap.rate, latched));
+  return now.gap.depth > 0 ? massless_force(pair, now.a, now.b, now.gap, latched) : NormalForce{};
 }
 
 namespace {

@@ -13,6 +13,8 @@ namespace pintle {
 Guard gap_of(const System&, int contact, const State&);
 /// The gap of a contact and its normal force, from the same data; nothing else is computed.
 ContactEffect pressing(const System&, int contact, const State&);
+/// Its normal force at a latched approach speed [m/s]. @pre it is not rigid
+NormalForce normal_force(const System&, int contact, const State&, double latched);
 /// Positive if an open contact touches: the overlap; for profiles, the least of it and of the margins inside its pieces.
 Guard onset_of(const System&, int contact, const State&);
 /// For profiles, how far inside its pieces a contact is, and at which side it is nearest to leaving them.

@@ -75,6 +75,11 @@ inline ContactPair dry(ContactPair pair) {
   pair.friction = Coulomb{0.2, 0.3, 5};
   return pair;
 }
+// Of bodies whose boundary is massless and about as flexible as the contact.
+inline ContactPair seated(ContactPair pair) {
+  pair.massless = ResidualFlexibility{Eigen::Matrix2d{{2e-5, 6e-6}, {6e-6, 5e-6}}, Eigen::Matrix2d{{1e-6, -4e-6}, {-4e-6, 3e-5}}};
+  return pair;
+}
 // Of n numbers: aᵀin + Σ sin(in + k) + a product, and its slopes by hand.
 inline SignalFunction blend(std::size_t n, double by) {
   return [n, by](double t, const double* in, double* slope) {
@@ -166,6 +171,8 @@ inline const std::vector<Kind> kinds{
     {"SpringDamperContactWithFriction", {}, {}, {spring_damper(Ambrosio{0.3, 0, 50})}},
     {"ContactWithFriction", {}, {}, {contact(2, Ambrosio{0.3, 0, 50})}},
     {"ContactInFullSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 1e-6, 2e-6})}},
+    {"MasslessBoundary", {}, {}, {seated(contact(0.6))}},
+    {"MasslessBoundaryWithFriction", {}, {}, {seated(contact(2, Ambrosio{0.3, 0, 50}))}},
     {"ContactOfGeometricSliding", {}, {}, {contact(0.6, Ambrosio{0.3, 0, 50}, Sliding::geometric)}},
     {"ContactOfDryFriction", {}, {}, {contact(2, Coulomb{0.2, 0.3, 5})}},
     {"DiscOnLineOfDryFriction", {}, {}, {dry(profiles(disc, flat))}},
