@@ -117,8 +117,8 @@ class Writer : public ValueWriter<Writer> {
     add(automatic, count, below, effective_mass);
   }
   void add(const SceneModes& m) {
-    const auto& [frame, a, b, method, keep, place] = m;
-    add(frame, a, b, method, keep);
+    const auto& [frame, a, b, method, keep, massless, place] = m;
+    add(frame, a, b, method, keep, massless);
   }
 
  private:
@@ -172,10 +172,11 @@ std::optional<std::string> elements_key(const Scene& scene, const SceneBody& bod
   return key.take();
 }
 
-std::string reduction_key(const SceneElastic& body, const std::vector<int>& ports, const std::optional<int>& chosen) {
+std::string reduction_key(const SceneElastic& body, const std::vector<int>& ports, const std::vector<int>& massless,
+                          const std::optional<int>& chosen) {
   const auto& [shape, lumped, lumps, supports, modes, damping, stiffening] = body;
   Writer key;
-  key.add(modes, stiffening, ports, chosen);
+  key.add(modes, stiffening, ports, massless, chosen);
   return key.take();
 }
 

@@ -15,6 +15,7 @@ std::optional<std::string> elements_key(const Scene&, const SceneBody&);
 
 /// Everything that determines the reduction of given elements: the scene's settings for its modes, the ports in use, and the number of
 /// modes chosen for `keep: auto`.
-std::string reduction_key(const SceneElastic&, const std::vector<int>& ports, const std::optional<int>& chosen);
+std::string reduction_key(const SceneElastic&, const std::vector<int>& ports, const std::vector<int>& massless,
+                          const std::optional<int>& chosen);
 
 }  // namespace pintle

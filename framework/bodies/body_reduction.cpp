@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "framework/bodies/in_body.h"
@@ -51,7 +52,9 @@ struct ReducedBody {
   MatrixXd loads;  ///< loads_on
   const Component& c;
   StaticResponse response;
-  std::vector<int> interface;  ///< ports in use
+  std::vector<int> interface;         ///< ports in use
+  std::vector<int> shaped, massless;  ///< those with mass, and those whose boundary is massless
+  bool is_massless(int port) const { return std::ranges::find(massless, port) != massless.end(); }
 };
 
 /// Smallest ratio of reduced to full compliance uᵀf for unit loads at the ports in use.
@@ -66,31 +69,11 @@ CoveredCompliance covered(const ReducedBody& b) {
   for (const int port : b.interface)
     for (Index k = 0; k < 3; ++k) {
       const Index i = 3 * Index{port} + k;
-      if (!(full[i] > held * greatest[k == 2]) || kept[i] / full[i] >= out.share) continue;
+      if ((k < 2 && b.is_massless(port)) || !(full[i] > held * greatest[k == 2]) || kept[i] / full[i] >= out.share) continue;
       const char* names[3] = {", x", ", y", ", turning"};
       out = {kept[i] / full[i], e.model.ports[static_cast<std::size_t>(port)].name + names[k]};
     }
   if (out.at.empty()) out.share = 1;
-  return out;
-}
-
-/// Shapes transformed to mean axes are φ − R(RᵀMR)⁻¹RᵀMφ; with R about the mass centre RᵀMφ is S and h.
-std::vector<FreeCompliance> when_free(const ReducedBody& b) {
-  const std::vector<Port>& ports = b.e.model.ports;
-  std::vector<FreeCompliance> out(ports.size());
-  const RigidInertia inertia = rigid_inertia(b.e.model, b.e.M);
-  const Vector2d centre = inertia.c / inertia.m;
-  const double J = inertia.J - inertia.c.squaredNorm() / inertia.m;
-  for (const int p : b.interface) {
-    const Vector2d d = ports[static_cast<std::size_t>(p)].x - centre;
-    Eigen::Matrix2Xd free = b.r.modes.ports.middleRows<2>(3 * Index{p}) - b.r.inertia.S / inertia.m;
-    free.row(0) += d.y() / J * b.r.inertia.h;
-    free.row(1) -= d.x() / J * b.r.inertia.h;
-    const MatrixXd loads = b.loads.middleCols<2>(inertia_loads + 3 * Index{p});
-    FreeCompliance& at = out[static_cast<std::size_t>(p)];
-    at.full = loads.cwiseProduct(b.response.under({ReferenceConditions::mean_axes}, loads)).colwise().sum();
-    at.kept = (free * b.r.modes.omega.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
-  }
   return out;
 }
 
@@ -108,24 +91,78 @@ std::optional<ReferenceConditions> hold_by(const ElasticBody& e, const std::vect
   return {};
 }
 
+/// The rigid motion, 3 × shapes, whose removal makes the shapes satisfy conditions at ports: (BR)⁻¹Bφ.
+MatrixXd rigid_part(const ReducedBody& b, const ReferenceConditions& hold) {
+  const MatrixXd B = reference_condition_rows(b.c, hold), R = rigid_motions(b.e.model);
+  MatrixXd B_phi = MatrixXd::Zero(3, b.r.modes.omega.size());
+  for (Index p = 0; p < static_cast<Index>(b.e.model.ports.size()); ++p)
+    if (p == hold.a || p == hold.b)
+      for (Index k = 0; k < 3; ++k)
+        if (const int freedom = b.e.model.ports[static_cast<std::size_t>(p)].freedom[k]; freedom >= 0)
+          B_phi += B.col(freedom) * b.r.modes.ports.row(3 * p + k);
+  return (B * R).fullPivLu().solve(B_phi);
+}
+
+/// Displacement of a port by the shapes, brought to mean axes: φ − R(RᵀMR)⁻¹RᵀMφ; with R about the mass centre RᵀMφ is S and h.
+Eigen::Matrix2Xd free_shapes(const ReducedBody& b, int port) {
+  const RigidInertia inertia = rigid_inertia(b.e.model, b.e.M);
+  const Vector2d centre = inertia.c / inertia.m, d = b.e.model.ports[static_cast<std::size_t>(port)].x - centre;
+  const double J = inertia.J - inertia.c.squaredNorm() / inertia.m;
+  Eigen::Matrix2Xd free = b.r.modes.ports.middleRows<2>(3 * Index{port}) - b.r.inertia.S / inertia.m;
+  free.row(0) += d.y() / J * b.r.inertia.h;
+  free.row(1) -= d.x() / J * b.r.inertia.h;
+  return free;
+}
+
+/// The compliance that a basis leaves out has no negative part, except from rounding.
+Eigen::Matrix2d without_rounding(const Eigen::Matrix2d& left_out) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> of((left_out + left_out.transpose()) / 2);
+  return of.eigenvectors() * of.eigenvalues().cwiseMax(0).asDiagonal() * of.eigenvectors().transpose();
+}
+
+/// What the shapes do not represent of the compliance at a port of the body, held as its shapes are: free, by its other ports in use, or by
+/// the frame.
+Eigen::Matrix2d left_out(const ReducedBody& b, int port) {
+  using Method = SceneModes::Method;
+  const Method method = b.e.scene->elastic->modes->method;
+  ReferenceConditions hold{ReferenceConditions::mean_axes};
+  Eigen::Matrix2Xd shapes;
+  if (method == Method::free || (method == Method::normal && b.r.conditions.kind == ReferenceConditions::mean_axes)) {
+    shapes = free_shapes(b, port);
+  } else {
+    hold = method == Method::craig_bampton ? hold_by(b.e, b.shaped).value() : b.r.conditions;
+    const int* freedom = b.e.model.ports[static_cast<std::size_t>(port)].freedom;
+    const MatrixXd R = rigid_motions(b.e.model)(std::array<int, 2>{freedom[0], freedom[1]}, Eigen::all);
+    shapes = b.r.modes.ports.middleRows<2>(3 * Index{port}) - R * rigid_part(b, hold);
+  }
+  const MatrixXd loads = b.loads.middleCols<2>(inertia_loads + 3 * Index{port});
+  const Eigen::Matrix2Xd kept = shapes * b.r.modes.omega.cwiseInverse().asDiagonal();
+  return without_rounding(loads.transpose() * b.response.under(hold, loads) - kept * kept.transpose());
+}
+
+std::vector<FreeCompliance> when_free(const ReducedBody& b) {
+  std::vector<FreeCompliance> out(b.e.model.ports.size());
+  for (const int p : b.interface) {
+    const MatrixXd loads = b.loads.middleCols<2>(inertia_loads + 3 * Index{p});
+    FreeCompliance& at = out[static_cast<std::size_t>(p)];
+    at.full = loads.cwiseProduct(b.response.under({ReferenceConditions::mean_axes}, loads)).colwise().sum();
+    at.kept = (free_shapes(b, p) * b.r.modes.omega.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
+    if (b.is_massless(p)) at.massless = left_out(b, p), at.kept = at.full;
+  }
+  return out;
+}
+
 /// Static shapes represent loads at the interface exactly; the deformation due to inertia beyond and between them is left to the modes.
 CoveredInertia inertia_covered(const ReducedBody& b) {
   CoveredInertia out;
-  const std::optional<ReferenceConditions> hold = hold_by(b.e, b.interface);
+  const std::optional<ReferenceConditions> hold = hold_by(b.e, b.shaped);
   if (b.e.scene->elastic->modes->method != SceneModes::Method::craig_bampton || !hold) return out;
   constexpr Index translations = 2;
   const MatrixXd loads = b.loads.leftCols<translations>();
   const VectorXd full = loads.cwiseProduct(b.response.under(*hold, loads)).colwise().sum();
-  // φ transformed to these conditions is φ − R(BR)⁻¹Bφ: its work is that of φ minus (Rᵀf)ᵀ(BR)⁻¹Bφ.
-  const MatrixXd B = reference_condition_rows(b.c, *hold), R = rigid_motions(b.e.model);
-  MatrixXd B_phi = MatrixXd::Zero(3, b.r.modes.omega.size());
-  for (Index p = 0; p < static_cast<Index>(b.e.model.ports.size()); ++p)
-    if (p == hold->a || p == hold->b)
-      for (Index k = 0; k < 3; ++k)
-        if (const int freedom = b.e.model.ports[static_cast<std::size_t>(p)].freedom[k]; freedom >= 0)
-          B_phi += B.col(freedom) * b.r.modes.ports.row(3 * p + k);
-  const MatrixXd rigid = (B * R).fullPivLu().solve(B_phi);
-  const MatrixXd work = work_of_loads(b.e, b.r.modes).leftCols<translations>() - rigid.transpose() * (R.transpose() * loads);
+  // φ transformed to these conditions: its work is that of φ minus (Rᵀf)ᵀ(BR)⁻¹Bφ.
+  const MatrixXd work = work_of_loads(b.e, b.r.modes).leftCols<translations>() -
+                        rigid_part(b, *hold).transpose() * (rigid_motions(b.e.model).transpose() * loads);
   const VectorXd kept = (b.r.modes.omega.cwiseInverse().asDiagonal() * work).colwise().squaredNorm();
   const char* names[translations] = {"acceleration along x", "acceleration along y"};
   for (Index k = 0; k < translations; ++k)
@@ -159,7 +196,8 @@ Reduction reduction_of(const Scene& scene, const ElasticBody& e, std::optional<i
     r.inertia = invariants(e, r);
     if (said.stiffening != Stiffening::none) r.second = port_foreshortening(component_of(e), r.conditions, r.modes);
     const Component c = component_of(e);
-    const ReducedBody reduced{e, r, loads_on(e), c, StaticResponse(c), interface_of(scene, e)};
+    const ReducedBody reduced{
+        e, r, loads_on(e), c, StaticResponse(c), interface_of(scene, e), shaped_ports(scene, e), massless_ports(scene, e)};
     r.compliance = covered(reduced);
     r.when_free = when_free(reduced);
     r.inertia_covered = inertia_covered(reduced);

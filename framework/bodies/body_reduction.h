@@ -19,6 +19,8 @@ struct CoveredCompliance {
 /// Compliance to a brief force at a port, such as a contact force: the body accelerates freely, whatever its reference conditions. [m/N]
 struct FreeCompliance {
   Eigen::Vector2d full = Eigen::Vector2d::Zero(), kept = Eigen::Vector2d::Zero();  ///< along x and y, body axes
+  /// What the shapes do not represent, if its boundary is massless; otherwise zero. Symmetric, not negative.
+  Eigen::Matrix2d massless = Eigen::Matrix2d::Zero();
 };
 
 /// Smallest share of the compliance to the body's own inertia, held at its interface, that the shapes represent.

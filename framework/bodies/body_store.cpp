@@ -71,7 +71,8 @@ Reduction BodyStore::reduction(const Scene& scene, const ElasticBody& e, std::op
     return reduction_of(scene, e, chosen);
   };
   if (e.number == 0 || !e.scene->elastic->modes) return make();
-  return *reductions_.get(std::to_string(e.number) + ":" + reduction_key(*e.scene->elastic, interface_of(scene, e), chosen), make);
+  const std::string key = reduction_key(*e.scene->elastic, interface_of(scene, e), massless_ports(scene, e), chosen);
+  return *reductions_.get(std::to_string(e.number) + ":" + key, make);
 }
 
 }  // namespace pintle

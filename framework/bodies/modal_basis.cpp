@@ -102,6 +102,23 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
   return ports;
 }
 
+std::vector<int> massless_ports(const Scene& scene, const ElasticBody& e) {
+  std::vector<int> ports;
+  if (!e.scene->elastic->modes || !e.scene->elastic->modes->massless) return ports;
+  for (const SceneJoint& j : scene.joints)
+    if (presses_elastically(j))
+      for (const PointRef* point : {&j.a, &j.b})
+        if (point->body == e.scene->name) ports.push_back(port_of(e, point->point));
+  return ports;
+}
+
+std::vector<int> shaped_ports(const Scene& scene, const ElasticBody& e) {
+  std::vector<int> ports = interface_of(scene, e);
+  const std::vector<int> massless = massless_ports(scene, e);
+  std::erase_if(ports, [&](int port) { return std::ranges::find(massless, port) != massless.end(); });
+  return ports;
+}
+
 ModalModel lowest_of(const ModalModel& m, Eigen::Index count) {
   return {m.shapes.leftCols(count), m.ports.leftCols(count), m.omega.head(count), m.residual.head(count), {}};
 }
@@ -146,6 +163,7 @@ std::string title_of(const SceneModes& m) {
   std::string frame = m.frame == SceneModes::Frame::tangent ? "tangent frame"
                       : m.frame == SceneModes::Frame::chord ? "chord frame"
                                                             : "mean axes";
+  if (m.massless) frame += ", massless boundary";
   switch (m.method) {
     case SceneModes::Method::normal: return "normal modes, " + frame;
     case SceneModes::Method::craig_bampton: return "Craig-Bampton, " + frame;
@@ -193,8 +211,8 @@ ModalModel reduce(const Scene& scene, const ElasticBody& e, std::optional<int> c
   return in_modes(scene, m, [&] {
     const Component c = component_of(e);
     switch (m.method) {
-      case SceneModes::Method::craig_bampton: return craig_bampton(c, interface_of(scene, e), conditions, keep);
-      case SceneModes::Method::free: return free_modes(c, interface_of(scene, e), conditions, keep);
+      case SceneModes::Method::craig_bampton: return craig_bampton(c, shaped_ports(scene, e), conditions, keep);
+      case SceneModes::Method::free: return free_modes(c, shaped_ports(scene, e), conditions, keep);
       case SceneModes::Method::normal: break;
     }
     return normal_modes(c, conditions, keep);

@@ -21,6 +21,10 @@ std::string title_of(const SceneModes&);
 
 /// Ports at which joints, drivers and forces act, in the body's order; all ports if there are none.
 std::vector<int> interface_of(const Scene&, const ElasticBody&);
+/// Those of them whose boundary the body's `modes` declare massless: at clearance joints with a contact law.
+std::vector<int> massless_ports(const Scene&, const ElasticBody&);
+/// The others: the interface of the static shapes.
+std::vector<int> shaped_ports(const Scene&, const ElasticBody&);
 /// The first `count` shapes.
 ModalModel lowest_of(const ModalModel&, Eigen::Index count);
 

@@ -43,7 +43,7 @@ ModalModel lowest(const Component& c, Index count, Modes modes) {
 
 Candidates candidates_of(const Scene& scene, const ElasticBody& e, const Component& c, int most) {
   const Method method = e.scene->elastic->modes->method;
-  const std::vector<int> ports = interface_of(scene, e);
+  const std::vector<int> ports = shaped_ports(scene, e);
   Candidates out{reference_conditions_of(scene, e), {}, {}};
   const Keep none{0, {}, {}, false};
   if (method == Method::free) out.conditions = {ReferenceConditions::mean_axes};  // natural for free modes

@@ -188,6 +188,7 @@ class Builder {
     const bool b_bears = j.clearance->bearing == j.b.body;
     pair.a = markers_.marker(b_bears ? j.a : j.b);
     pair.b = markers_.marker(b_bears ? j.b : j.a);
+    pair.massless = residual_flexibility(scene_, j, markers_.elements(markers_.body(j.a)), markers_.elements(markers_.body(j.b)));
     if (j.clearance->model == ClearanceModel::massless_link) {
       pair.link = static_cast<int>(model_.system.joints.size());
       model_.system.joints.push_back(Distance{pair.b, pair.a, pair.gap.clearance()});

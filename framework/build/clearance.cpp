@@ -7,11 +7,13 @@
 #include <stdexcept>
 
 #include "contact/cylinder_law.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
 #include "framework/configuration/ideal_pin.h"
 #include "framework/mechanism/model.h"
 #include "framework/scene/error.h"
+#include "framework/scene/joint_words.h"
 
 namespace pintle {
 
@@ -259,6 +261,34 @@ ContactPair contact_of(const Scene& scene, const SceneJoint& j) {
     pair.sliding = c.friction->sliding == SlidingSpeed::material ? Sliding::material : Sliding::geometric;
   }
   return pair;
+}
+
+std::optional<ResidualFlexibility> residual_flexibility(const Scene& scene, const SceneJoint& j, const MechanismBody* a,
+                                                        const MechanismBody* b) {
+  const auto of = [&](const MechanismBody* made, const PointRef& at) -> std::optional<Eigen::Matrix2d> {
+    if (!made || made->when_free.empty() || !made->elastic.scene->elastic->modes->massless) return {};
+    const SceneModes& modes = *made->elastic.scene->elastic->modes;
+    const int port = port_of(made->elastic, at.point);
+    if (modes.method == SceneModes::Method::normal && (made->conditions.a == port || made->conditions.b == port))
+      throw SceneError(
+          scene.file, modes.place,
+          "boundary: massless lets the body move at \"" + at.point + "\", where its frame holds its modes; use mean axes or another point");
+    return made->when_free[static_cast<std::size_t>(port)].massless;
+  };
+  const std::optional<Eigen::Matrix2d> at_a = of(a, j.a), at_b = of(b, j.b);
+  if (!presses_elastically(j) || (!at_a && !at_b)) return {};
+  const SceneClearance& c = *j.clearance;
+  const auto wrong = [&](const Place& place, const std::string& message) {
+    throw SceneError(scene.file, place, "a body has boundary: massless, which " + message);
+  };
+  if (c.normal.follows) wrong(c.normal.place, "needs the approach speed at the onset: write approach speed: onset");
+  if (rubs(c) && (c.friction->sliding == SlidingSpeed::geometric || c.friction->law == "coulomb" || c.friction->law == "lugre" ||
+                  c.friction->law == "gonthier"))
+    wrong(c.friction->place,
+          "serves only friction that is a function of the material sliding speed: ambrosio, threlfall, tanh or bengisu-akay");
+  const Eigen::Matrix2d none = Eigen::Matrix2d::Zero();
+  const bool b_bears = c.bearing == j.b.body;
+  return ResidualFlexibility{(b_bears ? at_a : at_b).value_or(none), (b_bears ? at_b : at_a).value_or(none)};
 }
 
 std::vector<std::string> complete_clearances(const Scene& scene, System& system, std::vector<std::string>& warnings) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/bodies/mechanism_body.h"
 #include "framework/dynamics/model/contact_pair.h"
 #include "framework/dynamics/model/system.h"
 #include "framework/scene/scene.h"
@@ -15,6 +16,10 @@ namespace pintle {
 /// and damper, values that the scene does not give (complete_clearances).
 /// @throws SceneError  another kind of joint; invalid radii, restitution, law or stiffness
 ContactPair contact_of(const Scene&, const SceneJoint&);
+
+/// The residual flexibility of its bodies with a massless boundary; nothing without. @param a, b  nullptr: not made of elements
+/// @throws SceneError  its friction needs a rigid seat
+std::optional<ResidualFlexibility> residual_flexibility(const Scene&, const SceneJoint&, const MechanismBody* a, const MechanismBody* b);
 
 /// The law that a scene names. @param stiffness  of an impact law [N/mⁿ]   @param radii  of a law of cylinders, negative for a hole [m]
 /// @throws SceneError  invalid restitution, law, stiffness, length or table

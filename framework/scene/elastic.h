@@ -90,6 +90,7 @@ struct SceneModes {
   std::string a, b;  ///< points of the reference conditions; empty: the first and last marker of the body
   enum class Method { normal, craig_bampton, free } method = Method::normal;
   SceneKeep keep;
+  bool massless = false;  ///< at clearance joints with a contact law the left-out flexibility is in series with the contact
   Place place;
 };
 

@@ -65,6 +65,8 @@ std::vector<const PointRef*> points_of(const SceneJoint& joint) {
   return {&joint.a, &joint.b};
 }
 
+bool presses_elastically(const SceneJoint& j) { return j.clearance && !is_open(j) && j.clearance->model == ClearanceModel::contact; }
+
 PointRef carrier_of(const Scene& scene, const PointRef& ref) {
   const auto body = std::ranges::find(scene.bodies, ref.body, &SceneBody::name);
   if (body == scene.bodies.end()) return {ref.body, "", ref.place};

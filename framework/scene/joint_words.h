@@ -37,6 +37,8 @@ const JointWord& word_of(const SceneJoint&);
 
 /// The points that a joint connects, in the order of its ends; for a relation of terms, one of each body.
 std::vector<const PointRef*> points_of(const SceneJoint&);
+/// Whether it has clearance in a complete bearing and presses with a contact law.
+bool presses_elastically(const SceneJoint&);
 /// The point that carries a profile, BODY.PROFILE; for a rigid body and the ground the origin.
 /// @throws SceneError  a flexible body's profile without a carrying point
 PointRef carrier_of(const Scene&, const PointRef& profile);

@@ -112,6 +112,7 @@ Json json(const SceneModes& modes) {
     out.update(keep);
   else
     out[modes.method == Method::free ? "free" : "craig-bampton"] = keep;
+  if (modes.massless) out["boundary"] = "massless";
   return out;
 }
 

@@ -149,6 +149,8 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_start(root, scene);
   read_static(root, scene);
   read_output(root, scene);
+  for (const SceneBody& b : scene.bodies)
+    if (b.elastic && b.elastic->modes) check_boundary(b, scene);
   for (SceneBody& b : scene.bodies)
     if (b.elastic && b.elastic->modes && b.elastic->modes->keep.automatic && !root.at("bodies").at(b.name).at("modes").has("frame"))
       choose_frame(b, scene);

@@ -62,6 +62,7 @@ SceneModes read_modes(const Node& node, const SceneBody& body) {
   SceneModes modes;
   modes.place = node.place();
   if (node.has("frame")) read_frame(node.at("frame"), body, modes);
+  if (node.has("boundary")) modes.massless = node.at("boundary").one_of(choices("bodies.*.modes", "boundary")) == "massless";
   const std::array<std::pair<const char*, Method>, 2> methods{{{"craig-bampton", Method::craig_bampton}, {"free", Method::free}}};
   if (node.has(methods[0].first) && node.has(methods[1].first)) node.fail("is craig-bampton and free at once; keep one of them");
   for (const auto& [key, method] : methods) {
@@ -235,6 +236,14 @@ double apart(const ScenePoint& a, const ScenePoint& b) {
 }
 
 }  // namespace
+
+void check_boundary(const SceneBody& body, const Scene& scene) {
+  const auto presses = [&](const SceneJoint& j) { return presses_elastically(j) && (j.a.body == body.name || j.b.body == body.name); };
+  if (body.elastic->modes->massless && std::ranges::none_of(scene.joints, presses))
+    throw SceneError(scene.file, body.elastic->modes->place,
+                     "boundary: massless is for a body at a revolute joint with clearance, a complete bearing and model: contact, and \"" +
+                         body.name + "\" has none; leave it out");
+}
 
 void choose_frame(SceneBody& body, const Scene& scene) {
   using Frame = SceneModes::Frame;

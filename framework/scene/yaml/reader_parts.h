@@ -132,5 +132,7 @@ std::string filled_in(const Scene&, const Parameters&);
 /// The default reference conditions of a body whose modes are chosen by the scene's motion: through the two points farthest apart that
 /// joints hold, or at the only such point if it is clamped; otherwise mean axes. @pre it has modes
 void choose_frame(SceneBody&, const Scene&);
+/// @throws SceneError  no contact law acts on a body with a massless boundary
+void check_boundary(const SceneBody&, const Scene&);
 
 }  // namespace pintle

@@ -29,7 +29,7 @@ bodies:
   mast:
     beam: {through: [A, B, C], section: {i: {height: 0.1, width: 0.05, web: 0.004, flange: 0.006}}, material: steel, theory: euler}
     points: {A: [0, 0], B: [1, 0], C: [1, 1]}
-    modes: {frame: tangent, keep: all}
+    modes: {frame: tangent, keep: all, boundary: massless}
     damping: {ratios: [0.01, 0.02]}
   bracket:
     plate:
@@ -63,6 +63,7 @@ joints:
         normal: {flores: {restitution: 0.5, young: 2e11, poisson: 0.3, radii: external,
                           journal: {young: 1 GPa, poisson: 0.2}}},
         friction: {ambrosio: {coefficient: 0.1, v0: 0.001, v1: 0.01, sliding: geometric}}}}
+  eye: {revolute: [ground, mast.C], clearance: {radial: c, bearing radius: 1 cm, bearing: mast, normal: {hertz: {stiffness: 1e9}}}}
   rod: {distance: [ground, crank], length: 1}
   track: {slot: [ground, crank]}
 contacts:
