@@ -285,7 +285,7 @@ bool evaluate(const System& system, const State& state, Equations& eq, VectorXd&
   pose(system, state.t, state.y, eq);
   factor(system, state.y, eq);
   if (!eq.regular) return false;
-  move_markers(system, state.t, state.y, eq);
+  move_markers(system, state.t, state.y, eq);  // Ċ is left: only projections need it
   accelerate(system, state, eq);
   fill_derivative(system, state.y, eq, dy);
   return eq.regular;

@@ -16,7 +16,6 @@ struct ConstraintRows {
   Eigen::Vector3d C = Eigen::Vector3d::Zero();                 ///< violation [m or rad]
   Eigen::Vector3d Ct = Eigen::Vector3d::Zero();                ///< ∂C/∂t; zero unless driven [m/s or rad/s]
   Eigen::Vector3d kappa = Eigen::Vector3d::Zero();             ///< terms of C̈ without accelerations
-  Jet law;                                                     ///< of a driver, at this instant
 };
 
 /// The markers that a joint joins, in order.

@@ -72,23 +72,22 @@ void curve(const Distance& j, const MarkerMotion* m, const double* lambda, Wrenc
   keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
 }
 
-// `pose` evaluates the law for both levels.
 void pose(const AngleDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
-  out.law = j.law(t);
-  keep_angle(m[j.a], m[j.b], out.law.value, 0, out, L);
+  keep_angle(m[j.a], m[j.b], j.law(t).value, 0, out, L);
 }
-void speed(const AngleDriver&, const MarkerMotion*, double, ConstraintRows& out) {
-  out.Ct[0] = -out.law.rate;
-  out.kappa[0] = -out.law.accel;
+void speed(const AngleDriver& j, const MarkerMotion*, double t, ConstraintRows& out) {
+  const Jet law = j.law(t);
+  out.Ct[0] = -law.rate;
+  out.kappa[0] = -law.accel;
 }
 
 void pose(const DistanceDriver& j, const MarkerMotion* m, double t, ConstraintRows& out, Block* L) {
-  out.law = j.law(t);
-  keep_length(m[j.a], m[j.b], out.law.value, 0, out, L);
+  keep_length(m[j.a], m[j.b], j.law(t).value, 0, out, L);
 }
-void speed(const DistanceDriver& j, const MarkerMotion* m, double, ConstraintRows& out) {
-  out.Ct[0] = -out.law.rate;
-  out.kappa[0] = keep_length_kappa(m[j.a], m[j.b]) - out.law.accel;
+void speed(const DistanceDriver& j, const MarkerMotion* m, double t, ConstraintRows& out) {
+  const Jet law = j.law(t);
+  out.Ct[0] = -law.rate;
+  out.kappa[0] = keep_length_kappa(m[j.a], m[j.b]) - law.accel;
 }
 void curve(const DistanceDriver& j, const MarkerMotion* m, const double* lambda, WrenchTangent& out) {
   keep_length_tangent(m[j.a], m[j.b], lambda[0], out);
