@@ -241,7 +241,7 @@ TEST(SceneSchema, RefusesWithTheReader) {
       {"    modes: {frame: {chord: [A, B]}, below: 5 kHz}\n    damping: {rayleigh: {ratios: [0.01, 0.02], modes: [1, 3]}}\n    stiffening: "
        "axial\n",
        ""},
-      {"    modes: {frame: tangent, keep: all}\n", "    stiffening: axial\n"},
+      {"    modes: {frame: tangent, keep: all, boundary: massless}\n", "    stiffening: axial\n"},
       {"stiffening: axial", "stiffening: all"},
       {"free: {keep: auto}", "free: {keep: auto, count: 3}"},
       {"  crank: {rigid", "  crank: {stiffening: none, rigid"},
