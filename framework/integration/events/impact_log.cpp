@@ -106,7 +106,7 @@ void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& 
     return;
   }
   const double t0 = step.from.state.t, latched = step.from.state.impact_rate[at(c)];
-  const auto inside = [&](double x) { return motion.at(t0 + x * step.h); };
+  const auto inside = [&](double x) -> const State& { return motion.at(t0 + x * step.h); };
   const auto force = [&](const State& state, const Guard& now) {
     if (pair.massless && latched > 0) return normal_force(system_, c, state, latched);
     return now.value > 0 && latched > 0 ? evaluate(pair.normal, approach_of(pair, now.value, now.rate, latched)) : NormalForce{};
@@ -120,7 +120,7 @@ void ImpactLog::follow(int c, const Step& step, const Guard& from, const Guard& 
   const auto rising = [&](const NormalForce& f, const Guard& now) { return f.d_depth * now.rate + f.d_rate * mean > 0; };
   if (step.h > 0 && last.force > 0 && !rising(last, to) && (first.force == 0 || rising(first, from)))
     impact.peak_force = std::max(impact.peak_force, greatest([&](double x) {
-                                   const State state = inside(x);
+                                   const State& state = inside(x);
                                    return force(state, gap_of(system_, c, state)).force;
                                  }));
   impact.lost = loss(c, step.to.state) - loss_at_begin_[at(c)];

@@ -99,7 +99,7 @@ TEST(Study, ThatIsWrongSaysWhereAndWhatToDo) {
            {"{peak: peak force at gudgeon pin}", "[energy lost, energy lost]", "study.yaml:3: measure: ", {"twice"}},
            {"{peak: peak force at gudgeon pin}", "{}", "study.yaml:3: measure: ", {"measures nothing"}},
            {"peak force at gudgeon pin", "x of slider at 4 ms", "study.yaml:3: measure.peak: ", {"after the end of the run"}},
-           {"run.until: 3 ms", "run.untl: 3 ms", "knocking.yaml: --set run.untl: ", {"Did you mean \"until\"?"}},
+           {"run.until: 3 ms", "run.untl: 3 ms", "study.yaml:2: set.run.untl: ", {"Did you mean \"until\"?"}},
            {"set: {run.until: 3 ms}", "set: 3 ms", "study.yaml:2: set: ", {"overrides of the scene"}},
            {"run.until: 3 ms", "run: null", "knocking.yaml: run: ", {"run: {until: 1 s}"}}}) {
     SCOPED_TRACE(b.to);
