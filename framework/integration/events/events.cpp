@@ -100,11 +100,11 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   const double left = t0 - 2 * from.value / from.rate;
   const bool leaves = !spent && from.value > w.zero && from.rate < 0 && left < t1 && along(left).value < 0;
   if (!(to.value > 0)) {
-    std::optional<double> between;
-    if (from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
+    std::optional<double> between;  // the closest look comes first: others may find a later time
+    if (spent || leaves || !(from.value > w.zero)) between = group(at).positive_inside(places_[at].event, step, motion);
+    if (!between && from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
     const bool parted = leaves || ((spent || std::abs(from.value) <= w.zero) && from.rate < 0);
     if (!between && (parted || may_be_positive_between(from, to, t1 - t0))) between = positive_in_parts(along, t0, from, t1);
-    if (!between && (spent || leaves || !(from.value > w.zero))) between = group(at).positive_inside(places_[at].event, step, motion);
     if (!between) return std::nullopt;
     end = *between;
   } else if (spent || leaves || from.value < 0) {  // it may have been positive earlier, and negative again

@@ -47,5 +47,30 @@ TEST_P(LongSteps, ABallHopsOnATableUntilItsEdge) {
       }
 }
 
+// It turns four times in the first long step, with 5 mm of rounding at each corner.
+TEST(LongStep, ASpinningBoxTouchesTheFloorWithItsNextCorner) {
+  const std::string text =
+      "gravity: [0, -9.81]\nbodies:\n  box:\n    rigid: {mass: 1 kg, inertia: 1.7e-3 kg m^2}\n"
+      "    profiles: {outline: {path: [[-6 cm, -4 cm], [6 cm, -4 cm], [6 cm, 4 cm], [-6 cm, 4 cm]], closed: true, round: 5 mm}}\n"
+      "ground:\n  profiles:\n    table: {path: [[-1 m, -1 m], [0, -1 m], [0, 0], [-1 m, 0]], closed: true}\n"
+      "    floor: {path: [[0, -0.6 m], [3 m, -0.6 m]], material: right}\ncontacts:\n"
+      "  on table: {between: [box.outline, ground.table], normal: {hunt-crossley: {restitution: 0.3, stiffness: 1e8 N/m^1.5}}, friction: "
+      "{coulomb: {coefficient: 0.2}}}\n"
+      "  on floor: {between: [box.outline, ground.floor], normal: {hunt-crossley: {restitution: 0.3, stiffness: 1e8 N/m^1.5}}, friction: "
+      "{coulomb: {coefficient: 0.2}}}\n"
+      "start: {box: {at: [-0.3 m, 4 cm], vx: 1.2 m/s, vy: 0, angle: 0, speed: 0}}\nrun: {until: 0.8 s}\noutput: {frames: 0}\n";
+  const auto hits = [&](double tolerance) {
+    const Whole w = run(text, {"dopri5", "dopri5", tolerance, 0});
+    pintle_scenes::expect_sound(w);
+    std::vector<double> out;
+    for (const Impact& i : pintle_scenes::impacts(w, "on floor")) out.push_back(i.begin);
+    return out;
+  };
+  const std::vector<double> fine = hits(1e-9), coarse = hits(1e-6);
+  ASSERT_GE(fine.size(), 2u);
+  ASSERT_GE(coarse.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(coarse[i], fine[i], 1e-4);
+}
+
 }  // namespace
 }  // namespace pintle::long_step_test
