@@ -79,6 +79,17 @@ struct VibratingTable {
   }
 };
 
+// E. N. Lorenz (1963), by states of the scene's own.
+inline const char* const lorenz =
+    "parameters: {sigma: 10, rho: 28, beta: 8/3}\n"
+    "bodies: {plate: {rigid: {mass: 1 kg, inertia: 1 kg m^2}}}\n"
+    "joints: {held: {weld: [ground, plate]}}\n"
+    "states:\n"
+    "  X: {rate: \"sigma*(Y - X)/(1 s)\", start: 1}\n"
+    "  Y: {rate: \"(X*(rho - Z) - Y)/(1 s)\", start: 1}\n"
+    "  Z: {rate: \"(X*Y - beta*Z)/(1 s)\", start: 20}\n"
+    "run: {until: 1000 s, tolerance: 1e-9, method: verner87}\n";
+
 inline std::string once_a_period(int transient, int returns) {
   return "section: {every: 2*pi/omega, record: {height: ball.y, speed: ball.vy}, transient: " + std::to_string(transient) +
          ", returns: " + std::to_string(returns) + ", tolerance: 1e-3}\n";
