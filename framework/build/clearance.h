@@ -18,7 +18,7 @@ namespace pintle {
 ContactPair contact_of(const Scene&, const SceneJoint&);
 
 /// The residual flexibility of its bodies with a massless boundary; nothing without. @param a, b  nullptr: not made of elements
-/// @throws SceneError  its friction needs a rigid seat
+/// @throws SceneError  its friction or its damping does not allow for a massless boundary
 std::optional<ResidualFlexibility> residual_flexibility(const Scene&, const SceneJoint&, const MechanismBody* a, const MechanismBody* b);
 
 /// The law that a scene names. @param stiffness  of an impact law [N/mⁿ]   @param radii  of a law of cylinders, negative for a hole [m]

@@ -31,7 +31,7 @@ Matrix2d turned(const Matrix2d& compliance, double angle) {
 }
 
 /// The displaced centres in equilibrium: q = e − (A + B) F n.
-struct Seat {
+struct Equilibrium {
   Matrix2d A, B;  ///< compliances of a and b, world axes [m/N]
   Vector2d q, n;  ///< from b's displaced centre to a's [m], and its direction
   double depth;   ///< of the contact alone [m]
@@ -41,9 +41,9 @@ struct Seat {
 };
 
 // With μ = F/|q|: q = (1 + μ G)⁻¹ e, whose length decreases with μ, while F increases with it: one root, in (0, depth of the gap).
-Seat seat(const ContactPair& pair, const MovingPoint& a, const MovingPoint& b, const Gap& gap) {
+Equilibrium equilibrium(const ContactPair& pair, const MovingPoint& a, const MovingPoint& b, const Gap& gap) {
   constexpr int most = 200;
-  Seat out{turned(pair.massless->a, a.angle), turned(pair.massless->b, b.angle), gap.e, gap.n, gap.depth, {}, 0};
+  Equilibrium out{turned(pair.massless->a, a.angle), turned(pair.massless->b, b.angle), gap.e, gap.n, gap.depth, {}, 0};
   const double clearance = pair.gap.clearance();
   const Matrix2d G = out.A + out.B;
   double low = 0, high = gap.depth;
@@ -67,28 +67,28 @@ Seat seat(const ContactPair& pair, const MovingPoint& a, const MovingPoint& b, c
 }
 
 /// Motion of the displaced centres as points of the bodies.
-struct Riding {
+struct CentreMotion {
   Vector2d arm_a, arm_b, v;  ///< from the markers to the displaced centres [m]; relative velocity [m/s]
   double approach;           ///< [m/s]
 };
-Riding riding(const Seat& s, const MovingPoint& a, const MovingPoint& b) {
+CentreMotion motion_of_centres(const Equilibrium& s, const MovingPoint& a, const MovingPoint& b) {
   const Vector2d f = s.contact.force * s.n;
-  Riding out{-(s.A * f), s.B * f, {}, 0};
+  CentreMotion out{-(s.A * f), s.B * f, {}, 0};
   out.v = a.v + a.w * perp(out.arm_a) - b.v - b.w * perp(out.arm_b);
   out.approach = out.v.dot(s.n);
   return out;
 }
 
 /// The law at the depth of the contact, whose damper the residual flexibility relieves twice: of speed and of force.
-NormalForce local_force(const ContactPair& pair, const Seat& s, const Riding& r, double latched) {
+NormalForce local_force(const ContactPair& pair, const Equilibrium& s, const CentreMotion& r, double latched) {
   return evaluate(pair.normal, Approach{s.depth, s.share() * s.share() * r.approach, latched});
 }
 
-double slip(const ContactPair& pair, const Seat& s, const Riding& r, const MovingPoint& a, const MovingPoint& b) {
+double slip(const ContactPair& pair, const Equilibrium& s, const CentreMotion& r, const MovingPoint& a, const MovingPoint& b) {
   return r.v.dot(perp(s.n)) + pair.gap.a.radius * a.w + pair.gap.b.radius * b.w;
 }
 
-NormalForce seated(const ContactPair& pair, const Seat& s, const Riding& r, double latched) {
+NormalForce force_at_markers(const ContactPair& pair, const Equilibrium& s, const CentreMotion& r, double latched) {
   NormalForce out = local_force(pair, s, r, latched);
   const double share = s.share();
   out.stored += s.flexibility * s.contact.force * s.contact.force / 2;
@@ -111,14 +111,14 @@ double stiffening(const ContactPair& pair, double depth) {
 }  // namespace
 
 NormalForce massless_force(const ContactPair& pair, const MovingPoint& a, const MovingPoint& b, const Gap& gap, double latched) {
-  const Seat s = seat(pair, a, b, gap);
-  return seated(pair, s, riding(s, a, b), latched);
+  const Equilibrium s = equilibrium(pair, a, b, gap);
+  return force_at_markers(pair, s, motion_of_centres(s, a, b), latched);
 }
 
 void press_massless(const ContactPair& pair, const MovingPoint& a, const MovingPoint& b, double latched, ContactEffect& out) {
-  const Seat s = seat(pair, a, b, out.gap);
-  const Riding r = riding(s, a, b);
-  out.normal = seated(pair, s, r, latched);
+  const Equilibrium s = equilibrium(pair, a, b, out.gap);
+  const CentreMotion r = motion_of_centres(s, a, b);
+  out.normal = force_at_markers(pair, s, r, latched);
   Vector2d force = -out.normal.force * s.n;
   if (pair.friction && out.normal.force > 0) {
     const double speed = slip(pair, s, r, a, b);
@@ -133,8 +133,8 @@ void press_massless(const ContactPair& pair, const MovingPoint& a, const MovingP
 
 // Derivatives of everything above, in its order.
 WrenchTangent massless_tangent(const ContactPair& pair, const ContactEffect& now, const MovingPoint& a, const MovingPoint& b) {
-  const Seat s = seat(pair, a, b, now.gap);
-  const Riding r = riding(s, a, b);
+  const Equilibrium s = equilibrium(pair, a, b, now.gap);
+  const CentreMotion r = motion_of_centres(s, a, b);
   const Vector2d &n = s.n, t = perp(n), f = s.contact.force * n;
   const double F = s.contact.force, k = s.contact.stiffness, share = s.share();
   const auto column = [](int i, const Vector2d& v) {
