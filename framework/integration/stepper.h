@@ -26,6 +26,11 @@ struct StepperTraits {
   double least_change = 1, least_growth = 1;  ///< a change of the step by a ratio between these is not worth another factorization
 };
 
+/// Whether stability limits a step, in a fast decay or in an undamped oscillation.
+struct StabilityLimits {
+  bool decay = false, oscillation = false;
+};
+
 /// A method of time integration as seen by the integrator: it makes steps and samples the motion inside them. It is independent of error
 /// control, events and switching. Chosen once, by make_stepper.
 class Stepper {
@@ -58,10 +63,8 @@ class Stepper {
   virtual bool near_singular(const Equations&) const = 0;
   /// Whether a stage of the step was much nearer to a singular configuration than its end, too near for the tolerance.
   virtual bool strayed_near_singular(const Step&, const Equations&) const = 0;
-  /// Whether the step is as long as stability allows in a fast decay.
-  virtual bool at_stability_limit(const Step&) const = 0;
-  /// Whether it is as long, or nearly, as stability allows in an undamped oscillation.
-  virtual bool swings_at_limit(const Step&) const = 0;
+  /// Whether the step is as long, or nearly, as stability allows.
+  virtual StabilityLimits stability_limits(const Step&) const = 0;
   virtual std::string trouble() const = 0;
   virtual int partitions() const = 0;
 

@@ -23,10 +23,10 @@ bool Switching::held_by_stability(const Stepper& stepper, const Scheme& scheme, 
   constexpr int seldom = 16, longest = 7680;
   if (stepper.traits().implicit) return false;
   const bool may_switch = step.h < scheme.switch_below;
-  if (!may_switch && ++steps_ % seldom == 0) ++looked_at_, at_limit_ += stepper.at_stability_limit(step);
+  if (!may_switch && ++steps_ % seldom == 0) ++looked_at_, at_limit_ += stepper.stability_limits(step).decay;
   if (!(scheme.switch_below > 0)) return false;
-  const bool held = may_switch && (stepper.at_stability_limit(step) || stepper.swings_at_limit(step));
-  held_ = held ? held_ + 1 : std::max(0, held_ - 2);
+  const StabilityLimits limits = may_switch ? stepper.stability_limits(step) : StabilityLimits{};
+  held_ = limits.decay || limits.oscillation ? held_ + 1 : std::max(0, held_ - 2);
   if (held_ <= 1) mark_t_ = step.to.state.t, mark_cost_ = cost;
   if (held_ < patience_) return false;
   pace_ = (step.to.state.t - mark_t_) / static_cast<double>(cost - mark_cost_);

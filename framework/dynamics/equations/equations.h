@@ -125,7 +125,7 @@ const std::array<double, most_internal>& internal_rates(const Equations&, const 
 /// ẏ = [s, a, ẋ, ż] after accelerate.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 
-/// All of the above in order. @returns false if the accelerations cannot be computed
+/// All of the above in order, without Ċ. @returns false if the accelerations cannot be computed
 bool evaluate(const System&, const State&, Equations&, Eigen::VectorXd& dy);
 
 /// Largest |C| over the mechanism's length, and |Ċ| over its length and fastest angular rate.

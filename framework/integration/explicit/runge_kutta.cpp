@@ -87,14 +87,12 @@ bool RungeKutta::attempt(double h, const ErrorNorm&, Step& step, Equations& eq) 
   return step.error.allFinite();
 }
 
-bool RungeKutta::at_stability_limit(const Step& step) const {
-  constexpr double edge = 0.9;
-  return stages_.stiffness(system_, step).decay > edge * stages_.tableau().reach;
-}
-
-bool RungeKutta::swings_at_limit(const Step& step) const {
-  constexpr double edge = 0.25;  // the limit is 0.2 to 0.5 of that on the real axis, and more with some damping
-  return stages_.stiffness(system_, step).swing > edge * stages_.tableau().reach;
+StabilityLimits RungeKutta::stability_limits(const Step& step) const {
+  constexpr double near = 0.9;
+  constexpr double of_oscillation = 0.25;  // 0.2 to 0.5 of the limit on the real axis, and more with some damping
+  const double reach = stages_.tableau().reach;
+  const Stages::Stiffness now = stages_.stiffness(system_, step);
+  return {.decay = now.decay > near * reach, .oscillation = now.oscillation > of_oscillation * reach};
 }
 
 void RungeKutta::save(Writer& out) const { out.whole(stages_); }

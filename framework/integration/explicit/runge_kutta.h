@@ -24,8 +24,7 @@ class RungeKutta final : public Stepper {
   bool passed_near_singular() const override { return stages_.near_singular(); }
   bool near_singular(const Equations&) const override;
   bool strayed_near_singular(const Step&, const Equations&) const override;
-  bool at_stability_limit(const Step&) const override;
-  bool swings_at_limit(const Step&) const override;
+  StabilityLimits stability_limits(const Step&) const override;
   std::string trouble() const override { return {}; }
   int partitions() const override { return stages_.partitions(); }
   void save(Writer&) const override;

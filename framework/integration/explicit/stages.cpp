@@ -178,7 +178,7 @@ Stages::Stiffness Stages::stiffness(const System& system, const Step& step) cons
   }
   const double all = places + speeds + states;
   return {.decay = all > 0 ? step.h * std::sqrt((rates + accelerations) / all) : 0,
-          .swing = places > 0 ? step.h * std::pow(accelerations / places, 0.25) : 0};
+          .oscillation = places > 0 ? step.h * std::pow(accelerations / places, 0.25) : 0};
 }
 
 }  // namespace pintle

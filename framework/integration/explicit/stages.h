@@ -43,7 +43,7 @@ class Stages {
   /// h times the fastest rate in the last attempt, of a decay and of an oscillation, from the difference between its last inner stage at the
   /// end time and the step's end [HairerWanner1996, IV.2]; 0 for a pair without such a stage.
   struct Stiffness {
-    double decay = 0, swing = 0;
+    double decay = 0, oscillation = 0;
   };
   Stiffness stiffness(const System&, const Step&) const;
   /// The data besides the nodes that the next steps depend on.

@@ -24,8 +24,7 @@ class MoreauJean final : public Stepper {
   bool passed_near_singular() const override { return false; }
   bool near_singular(const Equations&) const override { return false; }
   bool strayed_near_singular(const Step&, const Equations&) const override { return false; }
-  bool at_stability_limit(const Step&) const override { return false; }
-  bool swings_at_limit(const Step&) const override { return false; }
+  StabilityLimits stability_limits(const Step&) const override { return {}; }
   std::string trouble() const override { return trouble_; }
   int partitions() const override { return 0; }
   void save(Writer&) const override;
