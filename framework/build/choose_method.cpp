@@ -282,15 +282,17 @@ bool has_rigid_contacts(const System& system) {
 
 std::string damped_text(const RateSpectrum& s) { return s.most_damped.what + " (" + number_text(s.most_damped.decay, 2) + " 1/s)"; }
 
+/// Whether it is a decay that limits explicit steps most, not an oscillation.
+bool is_limited_by_decay(const RateSpectrum& s) { return s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached; }
+
 std::string reason_of(const RateSpectrum& s, const Demand& d, const Scheme& scheme, bool rigid) {
   const std::string low = number_text(std::max(d.stability, d.accuracy), 2), high = number_text(d.high, 2);
   std::string why = scheme.tableau == find_tableau("verner87")
                         ? "Verner's pair needs about " + high + " steps a second for its accuracy, Dormand and Prince's pair about " + low
                         : "Dormand and Prince's pair needs about " + low + " steps a second";
   if (d.stability > d.accuracy) {
-    const bool by_decay = s.most_damped.decay / decay_reached > s.fastest.rate / rate_reached;
-    why +=
-        ", a limit of stability set by " + (by_decay ? damped_text(s) : s.fastest.what + " (" + number_text(s.fastest.rate, 2) + " rad/s)");
+    why += ", a limit of stability set by " +
+           (is_limited_by_decay(s) ? damped_text(s) : s.fastest.what + " (" + number_text(s.fastest.rate, 2) + " rad/s)");
   } else {
     why += " for its accuracy";
   }
@@ -308,7 +310,7 @@ void choose(const Scene& scene, const System& system, const RateSpectrum& s, Sch
   if (is_implicit) return;
   if (scheme.tableau != find_tableau("dopri5")) scheme.fallback = find_tableau("dopri5");
   if (!rigid && !s.parts.empty() && scene.run.constraints == "projection" && d.implicit > 0)
-    scheme.switch_below = s.struck ? 0.5 / d.implicit : scene.run.until;
+    scheme.switch_below = s.struck && !is_limited_by_decay(s) ? 0.5 / d.implicit : scene.run.until;
 }
 
 }  // namespace

@@ -293,7 +293,8 @@ bool Integrator::switch_method() {
   if (!switching_.held_by_stability(*stepper_, scheme_, step_, cost())) return true;
   constexpr double enough = 2;  // times cheaper; what an explicit pair would do more accurately
   const auto ahead = [&](const State& at) {
-    return change_at(scheme_, at.t) ? 0 : std::min(law_end(scheme_, at.t, true) - at.t, turn_ahead_.time(system_, at));
+    return change_at(scheme_, at.t) || events_.comes_by(at) ? 0
+                                                            : std::min(law_end(scheme_, at.t, true) - at.t, turn_ahead_.time(system_, at));
   };
   const double pace =
       trial_pace(implicit_method, system_, scheme_, norm_, eq_, step_.to, step_.h, ahead, std::clamp(counts_.steps / 16, 50L, 500L));

@@ -14,7 +14,7 @@ inline long cost_of(const Equations& eq, bool implicit) { return eq.evaluations 
 /// @param h      length of the first [s]
 /// @param ahead  the time that a step from a state may last at most [s]; 0: the trial ends there
 /// @param tries  how many steps are tried; the second half counts, when vibrations that the steps before have left have died away
-/// @returns time passed per cost [s]; 0 if the steps fail
+/// @returns time passed per cost [s]; 0 if the steps fail or are too few
 double trial_pace(std::string_view method, const System&, const Scheme&, const ErrorNorm&, const Equations&, const Instant& from, double h,
                   const std::function<double(const State&)>& ahead, long tries);
 

@@ -153,6 +153,14 @@ std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& mo
 
 bool Events::passes_another(const Step& step) const { return second_ < step.to.state.t - together_; }
 
+bool Events::comes_by(const State& later) const {
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const WatchedGuard& w = watched_[k];
+    if (w.direction != Direction::none && !(turned(to_[k], w).value > 0) && turned(guard(k, later), w).value > w.zero) return true;
+  }
+  return false;
+}
+
 std::optional<EventInStep> Events::due(const State& end) const {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard w = ask(k);

@@ -38,6 +38,8 @@ class Events {
   Ending end_at(const EventInStep&, Stepper&, const ErrorNorm&, Step&, Equations&);
   /// Whether the step, ended at the event that `first` has found, has passed another one: dense output put them in the wrong order.
   bool passes_another(const Step&) const;
+  /// Whether an event that had not come at the last step's end has come at a later state.
+  bool comes_by(const State& later) const;
   /// An event that has occurred exactly at a step's end, or was passed by the action of another event there.
   std::optional<EventInStep> due(const State& end) const;
   /// Evaluates the guards where the step really ended.

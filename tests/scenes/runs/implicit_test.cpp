@@ -230,6 +230,18 @@ TEST(Auto, GoesOnImplicitlyWhereATrialIsCheaper) {
   EXPECT_LT(apart(chosen, pair, "coupler.B"), allowed(1e-6) * 0.17);
 }
 
+// With a clearance, the coupler's highest shapes decay fast, and the trial goes on until the journal strikes.
+TEST(Auto, GoesOnImplicitlyThroughImpactsWhereADecayLimitsTheSteps) {
+  FlexibleBeam beam;
+  beam.elements = 32, beam.modes = "{frame: {tangent: A}, count: 30}", beam.more = "damping: {rayleigh: {alpha: 0 1/s, beta: 20 us}}";
+  const pintle::Scene s = scene_of(text(FlexibleCrank{.coupler = text(beam), .until = 0.01, .clearance = 1e-5}));
+  const Whole chosen = by(s, "auto", 1e-6);
+  EXPECT_NE(chosen.model.scheme.tableau, nullptr);
+  EXPECT_NE(chosen.run.switched.find("generalized-alpha"), std::string::npos) << chosen.model.scheme.reason;
+  EXPECT_LT(evaluations(chosen), 1.5 * evaluations(by(s, "generalized-alpha", 1e-6)));
+  EXPECT_LT(apart(chosen, by(s, "generalized-alpha", 1e-8), "coupler.B"), allowed(1e-6) * 0.17);
+}
+
 // What the blow leaves is far above the tolerance, and generalised-alpha would follow it by more evaluations.
 TEST(Auto, GoesBackToItsPairWhileAccuracyLimitsTheSteps) {
   const Whole chosen = by(struck_shaft(), "auto", 1e-5);
