@@ -250,9 +250,9 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   control_.wish_for(remembered > 0 ? control_.bounded(remembered) : wish);
   if (outcome.of_every_method || stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
   control_.forget_errors();
-  step_.struck = outcome.change >= EventOutcome::Change::jump;
+  step_.struck = true;
+  step_.dy_before = step_.to.dy;
   if (outcome.change == EventOutcome::Change::rows) eq_.permanent = 0;
-  if (step_.struck) step_.dy_before = step_.to.dy;
   if (stepper_->project(step_.to, eq_)) return true;
   undo();
   return stop("singular configuration at an event of " + events_.name(event));

@@ -37,7 +37,7 @@ struct Step {
   Instant from, to;
   double h = 0;                   ///< [s]
   Eigen::VectorXd error;          ///< of the lower-order solution, as y
-  bool struck = false;            ///< an event at its end made forces or the state jump …
+  bool struck = false;            ///< an event at its end changed forces or the state …
   Eigen::VectorXd y_before = {};  ///< … from these values, which end the step's dense output
   Eigen::VectorXd dy_before = {};
   const Eigen::VectorXd& y_end() const { return struck ? y_before : to.state.y; }

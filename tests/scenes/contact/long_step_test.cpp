@@ -72,5 +72,56 @@ TEST(LongStep, ASpinningBoxTouchesTheFloorWithItsNextCorner) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(coarse[i], fine[i], 1e-4);
 }
 
+// A block with these rounded corners on a table that ends at x = 0, its centre 30 cm before the end.
+std::string block_on_table(const std::string& rounding, const std::string& law, double speed) {
+  return "gravity: [0, -9.81]\nbodies:\n  box:\n    rigid: {mass: 1 kg, inertia: 1.7e-3 kg m^2}\n"
+         "    profiles: {outline: {path: [[-6 cm, -4 cm], [6 cm, -4 cm], [6 cm, 4 cm], [-6 cm, 4 cm]], closed: true" +
+         rounding + "}}\nground: {profiles: {table: {path: [[-1, -1], [0, -1], [0, 0], [-1, 0]], closed: true}}}\n" +
+         "contacts: {c: {between: [box.outline, ground.table], " + law + ", friction: {coulomb: {coefficient: 0.2}}}}\n" +
+         "start: {box: {at: [-0.3, 4 cm], vx: " + number(speed) + ", vy: 0, angle: 0, speed: 0}}\n";
+}
+
+// Its corners pass the end one after another in the middle of long steps. Until its centre passes, friction alone acts, and every method
+// integrates the motion exactly.
+TEST_P(LongSteps, RowsFollowABlockThatSlidesOverTheEndOfATable) {
+  if (GetParam().words == "generalized-alpha") GTEST_SKIP() << "it takes no rigid contacts";
+  for (const std::string rounding : {"", ", round: 2 mm", ", round: 5 mm"})
+    for (const double tolerance : {1e-4, 1e-6, 1e-8})
+      for (const double speed : {1.2, 2.0}) {
+        SCOPED_TRACE(rounding + ", tolerance " + number(tolerance) + ", " + number(speed) + " m/s");
+        const Whole w = run(
+            block_on_table(rounding, "model: impact, restitution: 0.3", speed) + "run: {until: 0.3}\noutput: {every: 2 ms, frames: 0}\n",
+            {GetParam().name, GetParam().words, tolerance, 0});
+        pintle_scenes::expect_sound(w);
+        const std::vector<double> t = w.column("t [s]"), x = w.column("box.x [m]"), v = w.column("box.vx [m/s]");
+        std::size_t before = 0;
+        for (std::size_t i = 0; i < t.size() && x[i] < 0; ++i, ++before) {
+          EXPECT_NEAR(x[i], -0.3 + speed * t[i] - 0.1 * g * t[i] * t[i], 1e-9) << t[i];
+          EXPECT_NEAR(v[i], speed - 0.2 * g * t[i], 1e-9) << t[i];
+        }
+        EXPECT_GT(before, 50u);
+      }
+}
+
+// Its lower corners are also behind the end face of the table, far deeper than under the upper one.
+TEST(LongStep, RowsNameTheFacesThatTouch) {
+  constexpr double mass = 1, stiffness = 1e8, length = 0.12;
+  const double sinks = std::pow(mass * g / 2 / stiffness, 2.0 / 3);  // on two corners
+  for (const std::string rounding : {"", ", round: 5 mm"})
+    for (const std::string law :
+         {"model: impact, restitution: 0.3", "normal: {hunt-crossley: {restitution: 0.3, stiffness: 1e8 N/m^1.5}}"}) {
+      SCOPED_TRACE(law + rounding);
+      const Whole w =
+          run(block_on_table(rounding, law, 0) + "run: {until: 0.2}\noutput: {every: 1 ms, frames: 0}\n", {"dopri5", "dopri5", 1e-8, 0});
+      pintle_scenes::expect_sound(w);
+      const std::vector<double> x = w.column("c.x [m]"), y = w.column("c.y [m]"), depth = w.column("c.depth [m]");
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_LE(std::abs(depth[i]), 2 * sinks) << i;  // at most twice as deep as where it comes to rest: it was let go at the surface
+        EXPECT_LE(std::abs(y[i]), 2 * sinks) << i;
+        EXPECT_LE(std::abs(x[i] + 0.3), length / 2 + 1e-9) << i;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace pintle::long_step_test
