@@ -36,6 +36,16 @@ std::string bodies_text(const System& s) {
   return std::to_string(rigid) + " rigid" + (flexible > 0 ? ", " + text : "");
 }
 
+/// Those in clearance joints, and those of profiles, guides and gears.
+std::string contacts_text(const System& s) {
+  const int joints = n_clearances(s);
+  const auto others = std::ranges::count_if(s.contacts, [](const ContactPair& c) { return c.profiles && c.pair == 0; });
+  if (joints + others == 0) return "none";
+  const std::string of_joints = joints == 0 ? "" : std::to_string(joints) + " in clearance joints";
+  if (others == 0) return of_joints;
+  return of_joints + (joints > 0 ? ", " : "") + std::to_string(others) + " between profiles";
+}
+
 /// In per cent, with values that are only rounding as 0.
 std::string percent(double part) { return number(std::abs(part) < 1e-6 ? 0 : 100 * part, 3); }
 
@@ -142,7 +152,7 @@ void print_check(const Scene& scene, const Model& model, const Assembly& a) {
        {"constraint rows", std::to_string(s.n_rows()) + ", rank " + std::to_string(a.rank) +
                                (a.redundant.empty() ? "" : ", " + std::to_string(a.redundant.size()) + " redundant")},
        {"mobility", std::to_string(s.n() - a.rank)},
-       {"clearance joints", n_clearances(s) == 0 ? "none" : std::to_string(n_clearances(s))},
+       {"contacts", contacts_text(s)},
        {"forces", s.forces.empty() ? "none" : std::to_string(s.forces.size())},
        {"gravity", s.gravity.isZero() ? "off" : number(s.gravity.x()) + ", " + number(s.gravity.y()) + " m/s^2"},
        {"ledger integrals", std::to_string(s.n_z())},
