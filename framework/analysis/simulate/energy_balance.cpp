@@ -40,7 +40,7 @@ void warn_of_small_rows(const System& system, const Scheme& scheme, Run& run) {
   if (more == 0) return;
   const std::string known = warning < least ? " is known to about " + number_text(100 * warning / least, 1) + " %" : " is not known";
   run.warnings.push_back("\"" + integral_name(system, system.integrals[worst]) + "\"" +
-                         (more > 1 ? " (and " + std::to_string(more - 1) + " more of the ledger)" : "") + known + ": at most " +
+                         (more > 1 ? " (and " + std::to_string(more - 1) + " more of the ledger)" : "") + known + ": it reached " +
                          number_text(least, 3) + " J, but the energy balance of this run is accurate to " + number_text(warning, 2) +
                          " J; " + for_finer_books(scheme));
 }
