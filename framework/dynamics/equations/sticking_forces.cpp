@@ -118,6 +118,10 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   constexpr int most = 30;
   constexpr double enough = 1e-13, little = 1e-6;
   const Sticking& s = eq.sticking;
+  if (count(s) == 1 && s.of.front().holds) {  // alone
+    const double held = shares == Shares::all ? before[0] : 0, W = by.W(0, 0);
+    return VectorXd::Constant(1, (W == 0 ? 0 : (W * held + slips[0]) / W) - held);
+  }
   const Coupled with = couple(system, state, eq, by);
   const Places hold = those(s, true), &slide = with.of_joints;
   const MatrixXd W_hold = part(with.W, hold, hold), W_slide = part(by.W, hold, slide);
@@ -180,8 +184,9 @@ void add_accelerations(const VectorXd& change, const VectorXd& before, const Mat
   eq.a += s.a * change;
   if (std::ranges::find(s.of, true, &Sticking::Column::normal) == s.of.end()) return;
   const double rounding = 2e-15 * (5 + static_cast<double>(count(s)));  // rounding of sums of so many terms
-  const VectorXd terms = s.a.cwiseAbs() * greatest_together(W, before.cwiseAbs() + change.cwiseAbs());
-  eq.a = (eq.a.array().abs() > rounding * terms.array()).select(eq.a, 0);
+  const VectorXd force = greatest_together(W, before.cwiseAbs() + change.cwiseAbs());
+  for (Index i = 0; i < eq.a.size(); ++i)
+    if (std::abs(eq.a[i]) <= rounding * s.a.row(i).cwiseAbs().dot(force)) eq.a[i] = 0;
 }
 
 }  // namespace

@@ -121,6 +121,7 @@ Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& no
 std::optional<double> FrictionEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   const DryFriction& dry = step.from.state.friction[place(event)];
   if (dry.direction == DryFriction::undecided || of_sliding(event) == (dry.direction == 0)) return std::nullopt;
+  if (!dry_law(system_, place(event))) return std::nullopt;  // it neither sticks nor slips
   if (!touches(place(event), step.from.state) || (!of_sliding(event) && !motion.knows_held_forces())) return std::nullopt;
   const double sign = of_sliding(event) ? 1 : -1;
   const auto left = [&](double t) { return sign * guard(event, motion.at(t)).value; };
