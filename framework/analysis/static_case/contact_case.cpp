@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -144,7 +145,7 @@ std::string contacts_csv(const ContactCase& c) {
 std::string contact_json(const Scene& scene, const Bodies& bodies, const ContactCase& c) {
   OrderedJson out = {
       {"program", "pintle"}, {"version", PINTLE_VERSION}, {"command", "static"}, {"title", scene.title}, {"file", scene.file}};
-  OrderedJson &all = out["bodies"] = OrderedJson::object(), &contacts = out["contacts"] = OrderedJson::object();
+  OrderedJson all = OrderedJson::object(), contacts = OrderedJson::object();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     OrderedJson one = OrderedJson::parse(static_json(scene, *bodies[b], c.bodies[b]));
     for (const char* shared : {"program", "version", "command", "title", "file", "body", "scene"}) one.erase(shared);
@@ -156,6 +157,7 @@ std::string contact_json(const Scene& scene, const Bodies& bodies, const Contact
     one["greatest pressure [Pa]"] = r.greatest_pressure;
     one[r.straight ? "touches from, to [m]" : "touches from, to [rad]"] = {r.from, r.to};
   }
+  out["bodies"] = std::move(all), out["contacts"] = std::move(contacts);
   out["timings [s]"] = {{"contact", c.seconds}};
   return text_with_scene(out, scene);
 }
