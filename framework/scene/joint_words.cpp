@@ -43,6 +43,12 @@ std::span<const JointWord> joint_words() {
 
 const JointWord& word_of(const SceneJoint& joint) { return *std::ranges::find(joint_words(), joint.kind, &JointWord::kind); }
 
+std::vector<const char*> efforts_of(const SceneJoint& joint) {
+  const bool shafts = joint.kind == JointKind::differential && (!joint.coupling || joint.coupling->terms.front().kind == SceneTerm::angle);
+  const bool swings = joint.kind == JointKind::cam && joint.coupling->swings;
+  return shafts || swings ? std::vector<const char*>{} : word_of(joint).efforts;
+}
+
 namespace {
 
 // For measured quantities the point matters, not only its body. Several points on the ground may be used.

@@ -28,13 +28,15 @@ struct JointWord {
   bool friction = false;   ///< friction allowed
   std::vector<JointNumber> numbers = {};
   std::vector<const char*> couples = {};               ///< keys of SceneCoupling allowed with it
-  std::vector<const char*> efforts = {};               ///< columns of its forces besides the reaction at its point
+  std::vector<const char*> efforts = {};               ///< of `efforts_of`, unless it relates only angles
   bool has_couple() const { return turns || clamps; }  ///< its reaction has a couple
 };
 
 std::span<const JointWord> joint_words();
 const JointWord& word_of(const SceneJoint&);
 
+/// Columns of its forces besides the reaction at its point: none if it relates only angles.
+std::vector<const char*> efforts_of(const SceneJoint&);
 /// The points that a joint connects, in the order of its ends; for a relation of terms, one of each body.
 std::vector<const PointRef*> points_of(const SceneJoint&);
 /// Whether it has clearance in a complete bearing and presses with a contact law.

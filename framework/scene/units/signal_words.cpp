@@ -117,7 +117,7 @@ class SignalWordsOf {
     twist(j.name, j.a, j.b);
     const JointWord& word = word_of(j);
     if (word.guides) put(j.name + ".travel", What::travel, dimension::length, j.a, j.b);
-    for (const char* effort : word.efforts) put(j.name + effort, What::column, dimension::force);
+    for (const char* effort : efforts_of(j)) put(j.name + effort, What::column, dimension::force);
     if (j.coupling && j.play) columns(j.name, column::flank);
     if (j.clearance || j.play) {
       contact(j.name, true, j.a, j.b);
