@@ -1,5 +1,6 @@
 #include "framework/dynamics/equations/sharing.h"
 
+#include <cmath>
 #include <limits>
 
 #include "framework/common/dense.h"
@@ -10,12 +11,28 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// Whether the ratio of the singular values of the 2 × 2 matrix W, scaled to unit slips, is above this: it is at least |det|/‖W‖².
+bool are_independent(const MatrixXd& W, double one) {
+  const double own = std::abs(W(0, 0) * W(1, 1)), det = W(0, 0) * W(1, 1) - W(0, 1) * W(1, 0);
+  return own > 0 && std::abs(det) > one * (2 * own + W(0, 1) * W(0, 1) + W(1, 0) * W(1, 0));
+}
+
+VectorXd solution(const MatrixXd& W, const VectorXd& rhs) {
+  const double det = W(0, 0) * W(1, 1) - W(0, 1) * W(1, 0);
+  return Eigen::Vector2d(W(1, 1) * rhs[0] - W(0, 1) * rhs[1], W(0, 0) * rhs[1] - W(1, 0) * rhs[0]) / det;
+}
+
+}  // namespace
+
 VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capacity, double one,
                    std::span<const UnilateralContact> contacts) {
   constexpr double least = 1e-9;
   const Index m = rhs.size();
   if (m == 0) return rhs;
   if (m == 1) return W(0, 0) == 0 ? VectorXd(VectorXd::Zero(1)) : VectorXd(rhs / W(0, 0));  // negative where friction jams
+  if (m == 2 && are_independent(W, one)) return solution(W, rhs);
   const double most = capacity.maxCoeff();
   const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
   // The rank is that of W scaled to unit slips; of its solutions, the one of least norm is taken.

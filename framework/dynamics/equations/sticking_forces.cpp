@@ -111,6 +111,30 @@ VectorXd holding_forces(const System& system, const Equations& eq, const MatrixX
   return out;
 }
 
+namespace {
+
+// Whether there is but one force that holds, with or without the sliding friction that follows it.
+bool is_of_one_contact(const Sticking& s) {
+  const std::size_t n = s.of.size();
+  const bool slides = n == 2 && s.of[0].normal && s.of[1].at == s.of[0].at && !s.of[1].holds;
+  return (n == 1 || slides) && s.of[0].holds;
+}
+
+// The general solution below, written out for it.
+VectorXd change_of_one_contact(const System& system, const State& state, const Equations& eq, const FrictionResponse& by, Shares shares,
+                               const VectorXd& slips, const VectorXd& before) {
+  const bool slides = before.size() == 2;
+  const double c = slides ? sliding_force(system, state, eq, eq.sticking.of[1].at, 1) : 0;
+  const double off = slides ? c * before[0] - before[1] : 0, W_friction = slides ? by.W(0, 1) : 0;
+  const double W = by.W(0, 0) + c * W_friction, held = shares == Shares::all ? before[0] : 0;
+  VectorXd change(before.size());
+  change[0] = (W == 0 ? 0 : (W * held + slips[0] - W_friction * off) / W) - held;
+  if (slides) change[1] = c * change[0] + off;
+  return change;
+}
+
+}  // namespace
+
 // Sliding friction in joints makes this nonlinear, since N is a norm of λ: Newton's method on T_i + d_i μ_i N_i = 0, solving for the
 // holding forces in each iteration.
 VectorXd friction_change(const System& system, const State& state, const Equations& eq, const FrictionResponse& by, Shares shares,
@@ -118,10 +142,7 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   constexpr int most = 30;
   constexpr double enough = 1e-13, little = 1e-6;
   const Sticking& s = eq.sticking;
-  if (count(s) == 1 && s.of.front().holds) {  // alone
-    const double held = shares == Shares::all ? before[0] : 0, W = by.W(0, 0);
-    return VectorXd::Constant(1, (W == 0 ? 0 : (W * held + slips[0]) / W) - held);
-  }
+  if (is_of_one_contact(s)) return change_of_one_contact(system, state, eq, by, shares, slips, before);
   const Coupled with = couple(system, state, eq, by);
   const Places hold = those(s, true), &slide = with.of_joints;
   const MatrixXd W_hold = part(with.W, hold, hold), W_slide = part(by.W, hold, slide);
