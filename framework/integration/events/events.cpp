@@ -269,7 +269,6 @@ EventOutcome Events::act(const EventInStep& event, Step& step, double wish) {
 }
 
 double Events::remembered_wish(const EventInStep& event) const {
-  if (ask(event.at).direction == event.watch.direction) return 0;  // as before it: a rigid body has bounced
   const Wishes& wishes = wishes_[places_[event.at].group];
   return event.watch.direction == Direction::rising ? wishes.of_falling : wishes.of_rising;
 }

@@ -228,14 +228,17 @@ TEST_P(RigidImpact, ABlockRocksAsHousnerSays) {
 // ---- restitution of impulses ------------------------------------------------------------------
 
 TEST_P(RigidImpact, OfOneContactNewtonAndPoissonSayTheSame) {
+  constexpr double rounding = 4e-16;  // of the height, which shifts an impact by itself over the speed [m]
   for (const std::string friction : {"", ", friction: {coulomb: {coefficient: 0.2}}"}) {
     const std::string laws = "restitution: 0.6" + friction, speed = friction.empty() ? "0, 0" : "0.1, 0";
     const Whole newton = run_it(ball(0.5, laws, speed, 2, 0.1)),
                 poisson = run_it(ball(0.5, laws + ", restitution law: poisson", speed, 2, 0.1));
     expect_sound(poisson);
     ASSERT_EQ(newton.run.impacts.size(), poisson.run.impacts.size());
-    for (std::size_t i = 0; i + 1 < newton.run.impacts.size(); ++i)
-      EXPECT_NEAR(newton.run.impacts[i].separation, poisson.run.impacts[i].separation, 1e-11) << i;
+    for (std::size_t i = 0; i + 1 < newton.run.impacts.size(); ++i) {
+      const double separation = newton.run.impacts[i].separation;
+      EXPECT_NEAR(separation, poisson.run.impacts[i].separation, 1e-11 + g * rounding / separation) << i;
+    }
   }
 }
 
