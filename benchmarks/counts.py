@@ -18,6 +18,7 @@ page = root / "docs" / "counts.md"
 grown = 1.10
 rigid, flexible = root / "examples" / "slider_crank_clearance.yaml", root / "examples" / "flexible_slider_crank.yaml"
 driven = ["--set", "drivers.motor={angle: [ground, crank], law: 150 rad/s*t}"]
+impacts = ["--set", "joints.gudgeon pin.clearance={radial: clearance, bearing radius: 10 mm, bearing: slider, model: impact, restitution: 0.5}"]
 quiet = ["--set", "output.frames=0", "--set", "output.every=1 ms"]
 
 
@@ -78,6 +79,7 @@ class Counts:
         self.figures["start: allocations"], self.figures["start: bytes allocated"] = allocated([self.program, "--version"])
         self.evaluation("slider-crank with a clearance", rigid)
         self.evaluation("the same, driven", rigid, *driven)
+        self.evaluation("the same, with rigid impacts", rigid, *driven, *impacts)
         self.evaluation("slider-crank with a flexible coupler", flexible)
         self.each("a row", rigid, ["--set", "run.until=5 ms", "--set", "output.frames=0"], ["--set", "output.every=500 us"],
                   ["--set", "output.every=5 us"], rows)
