@@ -39,7 +39,7 @@ ProfileContact profile_contact(const System& system, std::size_t first, const St
   ProfileContact out;
   constexpr double equal = 1e-9;  // relative: of two forces that differ by less, the first
   double most = 0;
-  std::pair nearest{false, -std::numeric_limits<double>::infinity()};  // behind its face a part may also be behind other faces
+  std::pair nearest{false, -std::numeric_limits<double>::infinity()};  // behind its face a part may also be deeper behind other faces
   for (std::size_t k = first; k < first + at(system.contacts[first].pairs); ++k) {
     const ContactPair& pair = system.contacts[k];
     const ContactEffect& effect = eq.contact[k];
@@ -54,7 +54,7 @@ ProfileContact profile_contact(const System& system, std::size_t first, const St
     const auto [inside, inside_rate, side] = margin(pair, gap, a, b);
     if (!pair.journal && !pair.flank && std::min(inside, pair.deepest - gap.depth) < 0)
       as_far_as_the_end(std::min(inside, 0.0), inside_rate, gap);
-    const std::pair near{state.impact_rate[k] > 0, std::min({gap.depth, pair.deepest - gap.depth, inside})};
+    const std::pair near{state.impact_rate[k] > 0, std::min({gap.depth, pair.deepest - gap.depth, inside, inside - gap.depth})};
     const double force = effect.normal.force;
     if (most > 0 || force > 0 ? force > (1 + equal) * most : near > nearest)
       most = force, nearest = near, out.gap = gap,
