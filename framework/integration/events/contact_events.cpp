@@ -17,6 +17,34 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double part_pressed = 1e-9;  // relative to the greatest force of rigid contacts: a smaller force counts as none
 
+// A rigid corner begins to touch only what it faces by a direction between the normals of the faces beside it. Directions beyond them, up to
+// the extent of its piece, serve contacts that turn. Negative outside; by the length of the other piece.
+Guard faced_by_corners(const System& system, const ContactPair& pair, const State& state) {
+  constexpr double rounding = 1e-6;  // [rad]
+  const MovingPoint a = moving_point(system, pair.a, state.y), b = moving_point(system, pair.b, state.y);
+  const std::array<PlaceOn, 2> place = places(pair.gap, gap_between(pair, a, b), a, b);
+  const std::array<const Piece*, 2> pieces{&pair.gap.a, &pair.gap.b};
+  Guard out{infinite};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Piece &corner = *pieces[i], &other = *pieces[1 - i];
+    if (!is_corner(corner) || std::isinf(corner.half)) continue;
+    const double length = other.straight ? other.half : std::abs(other.radius), side = place[i].at < 0 ? -1 : 1;
+    if (!(length < infinite)) continue;
+    const double left = ((1 - side * place[i].at) * corner.half + rounding) * length;
+    if (left < out.value) out = {left, -side * place[i].rate * corner.half * length};
+  }
+  return out;
+}
+
+// As onset_of; rigid corners must also face the other piece.
+Guard onset_at(const System& system, int contact, const State& state) {
+  const ContactPair& pair = system.contacts[at(contact)];
+  const Guard out = onset_of(system, contact, state);
+  if (!is_rigid(pair) || !pair.profiles || pair.journal || pair.flank || out.value < -fine_length(pair, system.length)) return out;
+  const Guard faced = faced_by_corners(system, pair, state);
+  return faced.value < out.value ? faced : out;
+}
+
 }  // namespace
 
 ContactEvents::ContactEvents(const System& system, const Scheme& scheme)
@@ -63,7 +91,7 @@ Guard ContactEvents::guard(int event, const State& state) const {
     return {inside.value, inside.rate};
   }
   if (!log_.touching(event)) {
-    Guard onset = onset_of(system_, event, state);
+    Guard onset = onset_at(system_, event, state);
     if (opened_[at(event)] == state.t) onset.rate = std::min(onset.rate, -std::numeric_limits<double>::min());  // rounding of zero
     return onset;
   }
@@ -120,7 +148,7 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
     const Margin m = margin_of(system_, event, motion.at(t));
     return Guard{m.value, m.rate};
   };
-  const auto touches = [&](const std::optional<double>& t) { return t && onset_of(system_, event, motion.at(*t)).value > 0; };
+  const auto touches = [&](const std::optional<double>& t) { return t && onset_at(system_, event, motion.at(*t)).value > 0; };
   double begin = step.from.state.t + 1e-9 * step.h;
   Guard depth_before = depth(begin), inside_before = inside(begin);
   for (int i = 1; i <= parts; ++i) {
@@ -238,12 +266,16 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
           .of_every_method = pair.profiles};  // otherwise a long implicit step would skip it
 }
 
-// Whether a gap is so small that it closes at this instant.
+// Whether a gap is so small that it closes at this instant. Where two corners pass each other, the faces beside them meet, not the corners,
+// between which there is no normal. A corner that reaches the end of a face and moves on beyond it closes no gap either.
 bool ContactEvents::touches(int contact, const State& state) const {
   const ContactPair& pair = system_.contacts[at(contact)];
-  if (log_.touching(contact) || continues_another(contact)) return false;
-  const Guard now = onset_of(system_, contact, state);
-  return now.value > -std::max(1e-9 * fine_length(pair, system_.length), pair.slack) - pair.slack;
+  if (log_.touching(contact) || continues_another(contact) || (is_corner(pair.gap.a) && is_corner(pair.gap.b))) return false;
+  const double near = std::max(1e-9 * fine_length(pair, system_.length), pair.slack);
+  if (!(onset_at(system_, contact, state).value > -near - pair.slack)) return false;
+  if (!pair.profiles) return true;
+  const Margin inside = margin_of(system_, contact, state);
+  return inside.side < 0 || inside.value > near || !(inside.rate < 0);
 }
 
 // All contacts that touch at the same instant are treated in one impact.

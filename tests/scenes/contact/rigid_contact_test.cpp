@@ -212,5 +212,34 @@ TEST(RigidLimit, BouncesOfStifferAndStifferContactsTendToIt) {
   EXPECT_LT(before, 1e-3);
 }
 
+// A key's flank lifts a pin by its chamfer of the same slope. Where the upper ends of both faces pass each other, the key's corner also comes
+// to the pin's side and the pin's to the key's back, but they move on along the faces.
+TEST_P(RigidContact, FacesThatSlideOverEachOthersEndsStrikeNothing) {
+  constexpr double key = 0.05, pin = 0.02, load = 1, speed = 1, start = -0.02, ends_meet = -0.012;  // [kg], [N], [m/s], [m]
+  for (const double degrees : {30.0, 45.0, 55.0})
+    for (const std::string friction : {"", ", friction: {coulomb: {coefficient: 0}}"}) {
+      SCOPED_TRACE(number(degrees) + friction);
+      const double slope = std::tan(degrees * M_PI / 180), low = -0.011 - 0.004 * slope;
+      const Whole w = run_it(
+          "ground: {points: {G: {at: [0, 0], angle: 90 deg}, K: {at: [0, 0], angle: 0}}}\nbodies:\n  pin:\n"
+          "    rigid: {mass: 20 g, inertia: 2e-6}\n    points: {O: {at: [0, 0], angle: 90 deg}}\n"
+          "    profiles: {outline: {path: [[-4 mm, -11 mm], [0, " +
+          number(low) + "], [4 mm, -11 mm], [4 mm, 15 mm], [-4 mm, 15 mm]], closed: true}}\n  key:\n" +
+          "    rigid: {mass: 50 g, inertia: 1e-5}\n    points: {O: {at: [0, 0], angle: 0}}\n    profiles: {bit: {path: [[28 mm, " +
+          number(-0.005 - 0.02 * slope) + "], [8 mm, -5 mm], [-60 mm, -5 mm]], material: left}}\n" +
+          "joints: {guide: {prismatic: [ground.G, pin.O]}, slide: {prismatic: [ground.K, key.O]}}\n"
+          "forces: {load: {force: [0, -1 N], at: pin}}\n"
+          "contacts: {nose: {between: [key.bit, pin.outline], model: impact, restitution: 0.2" +
+          friction + "}}\nstart: {key: {at: [-20 mm, 0], vx: 1}, pin: {at: [0, " + number(0.006 - 0.008 * slope) +
+          "], angle: 0, vy: " + number(slope) + "}}\nrun: {until: 11 ms}\noutput: {every: 0.1 ms, frames: 0}\n");
+      expect_sound(w);
+      const double slows = load * slope / (key + pin * slope * slope);  // both together
+      const std::vector<double> t = w.column("t [s]"), x = w.column("key.x [m]");
+      EXPECT_GT(x.back(), ends_meet + 1e-3);
+      for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(x[i], start + speed * t[i] - slows * t[i] * t[i] / 2, 1e-11) << t[i];
+      EXPECT_NEAR(w.ledger("nose.lost to hysteresis [J]"), 0, 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace pintle::rigid_contact_test
