@@ -27,9 +27,8 @@ Guard faced_by_corners(const System& system, const ContactPair& pair, const Stat
   Guard out{infinite};
   for (std::size_t i = 0; i < 2; ++i) {
     const Piece &corner = *pieces[i], &other = *pieces[1 - i];
-    if (!is_corner(corner) || std::isinf(corner.half)) continue;
     const double length = other.straight ? other.half : std::abs(other.radius), side = place[i].at < 0 ? -1 : 1;
-    if (!(length < infinite)) continue;
+    if (!is_corner(corner) || std::isinf(corner.half) || std::isinf(length)) continue;
     const double left = ((1 - side * place[i].at) * corner.half + rounding) * length;
     if (left < out.value) out = {left, -side * place[i].rate * corner.half * length};
   }
@@ -134,7 +133,7 @@ std::optional<double> rise(const F& guard, double begin, const Guard& from, doub
 }  // namespace
 
 // A long step may move a body through a wall, or from beside a piece onto it. So parts of the step are examined: an onset is where the
-// overlap or the margin becomes positive while the other is.
+// overlap or the margin becomes positive while the other is. Parts in which the gap is too wide to close are passed over, up to a sixteenth.
 std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
   if (leaving(event) < 0 && log_.touching(event) && is_rigid(system_.contacts[at(event)]) && motion.knows_held_forces()) {
     const auto left = [&](double t) { return pressed(event, motion.at(t)).value; };
@@ -148,17 +147,20 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
     const Margin m = margin_of(system_, event, motion.at(t));
     return Guard{m.value, m.rate};
   };
-  const auto touches = [&](const std::optional<double>& t) { return t && onset_at(system_, event, motion.at(*t)).value > 0; };
+  const auto reach_of = [&](const Gap& gap) { return 4 * std::hypot(gap.rate, gap.sideways) * step.h; };
+  const double reach =
+      std::max(reach_of(pressing(system_, event, step.from.state).gap), reach_of(pressing(system_, event, step.to.state).gap));
   double begin = step.from.state.t + 1e-9 * step.h;
   Guard depth_before = depth(begin), inside_before = inside(begin);
   for (int i = 1; i <= parts; ++i) {
+    if (reach > 0) i = std::min(parts, i + static_cast<int>(std::clamp(-depth_before.value / reach * parts - 1, 0.0, parts / 16.0)));
     const double end = step.from.state.t + step.h * i / parts;
     const Guard depth_now = depth(end), inside_now = inside(end);
     std::optional<double> overlaps, enters;
     if (!(depth_before.value > 0)) overlaps = rise(depth, begin, depth_before, end, depth_now);
     if (!(inside_before.value > 0)) enters = rise(inside, begin, inside_before, end, inside_now);
-    if (!touches(overlaps)) overlaps.reset();
-    if (!touches(enters)) enters.reset();
+    for (std::optional<double>* t : {&overlaps, &enters})
+      if (*t && !(onset_at(system_, event, motion.at(**t)).value > 0)) t->reset();
     if (overlaps || enters) return std::min(overlaps.value_or(end), enters.value_or(end));
     begin = end, depth_before = depth_now, inside_before = inside_now;
   }
@@ -273,9 +275,8 @@ bool ContactEvents::touches(int contact, const State& state) const {
   if (log_.touching(contact) || continues_another(contact) || (is_corner(pair.gap.a) && is_corner(pair.gap.b))) return false;
   const double near = std::max(1e-9 * fine_length(pair, system_.length), pair.slack);
   if (!(onset_at(system_, contact, state).value > -near - pair.slack)) return false;
-  if (!pair.profiles) return true;
-  const Margin inside = margin_of(system_, contact, state);
-  return inside.side < 0 || inside.value > near || !(inside.rate < 0);
+  const Margin inside = pair.profiles ? margin_of(system_, contact, state) : Margin{infinite, 0, -1};
+  return inside.value > near || !(inside.rate < 0);
 }
 
 // All contacts that touch at the same instant are treated in one impact.
