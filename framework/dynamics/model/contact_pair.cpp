@@ -32,7 +32,7 @@ Margin margin(const ContactPair& pair, const Gap& gap, const MovingPoint& a, con
   Margin out{std::numeric_limits<double>::infinity(), 0, -1};
   const std::array<PlaceOn, 2> place = places(pair.gap, gap, a, b);
   const std::array<const Piece*, 2> pieces{&pair.gap.a, &pair.gap.b};
-  const auto size = [](const Piece& p) { return p.straight ? p.half : std::abs(p.radius); };
+  const auto size = [](const Piece& p) { return p.straight || p.curve ? p.half : std::abs(p.radius); };
   for (std::size_t i = 0; i < 2; ++i) {
     const Piece& piece = *pieces[i];
     if (std::isinf(piece.half)) continue;

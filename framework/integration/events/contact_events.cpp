@@ -27,8 +27,8 @@ Guard faced_by_corners(const System& system, const ContactPair& pair, const Stat
   Guard out{infinite};
   for (std::size_t i = 0; i < 2; ++i) {
     const Piece &corner = *pieces[i], &other = *pieces[1 - i];
-    const double length = other.straight ? other.half : std::abs(other.radius), side = place[i].at < 0 ? -1 : 1;
-    if (!is_corner(corner) || std::isinf(corner.half) || std::isinf(length)) continue;
+    const double length = other.straight || other.curve ? other.half : std::abs(other.radius), side = place[i].at < 0 ? -1 : 1;
+    if (!is_corner(corner) || is_corner(other) || std::isinf(corner.half) || std::isinf(length)) continue;
     const double left = ((1 - side * place[i].at) * corner.half + rounding) * length;
     if (left < out.value) out = {left, -side * place[i].rate * corner.half * length};
   }

@@ -241,5 +241,22 @@ TEST_P(RigidContact, FacesThatSlideOverEachOthersEndsStrikeNothing) {
     }
 }
 
+// A corner faces a curve by the curve's own normal.
+TEST_P(RigidContact, ABoxThatFallsOnACurveByItsCornerLandsOnIt) {
+  for (const double degrees : {5.0, 45.0, 80.0}) {
+    SCOPED_TRACE(degrees);
+    const Whole w =
+        run_it("gravity: [0, -9.81]\nground: {profiles: {hill: {spline: [[-1, 0], [-0.5, 0.06], [0, 0.08], [0.5, 0.06], [1, 0]], " +
+               std::string("material: right}}}\n") +
+               "bodies: {box: {rigid: {mass: 1, inertia: 2e-3}, profiles: {sides: {path: [[-0.05, -0.05], [0.05, -0.05], [0.05, 0.05], "
+               "[-0.05, 0.05]], closed: true}}}}\ncontacts:\n" +
+               struck("fall", "box.sides", "ground.hill", "restitution: 0.3, friction: {coulomb: {coefficient: 0.5}}") +
+               "start: {box: {at: [0.02, 0.25], angle: " + number(degrees) + " deg}}\n" + run_for(0.4, 0.01));
+    ASSERT_EQ(w.run.status, pintle::Status::finished) << w.run.reason;
+    EXPECT_GE(w.run.impacts.size(), 1u);
+    EXPECT_GT(w.last("box.y [m]"), 0.1);  // in free fall it would be at −0.53
+  }
+}
+
 }  // namespace
 }  // namespace pintle::rigid_contact_test
