@@ -52,6 +52,15 @@ double foot_under(const CurveSpan& span, const Vector2d& point) {
   });
 }
 
+// Parameter farthest from a point: there it touches a hollow arc about that point.
+double foot_farthest(const CurveSpan& span, const Vector2d& point) {
+  return foot(span, [&](double s) {
+    const CurvePoint p = span.at(s);
+    const Vector2d out = p.at - point;
+    return Sloping{p.along.dot(out), p.speed * (1 - p.curvature * out.dot(p.normal()))};
+  });
+}
+
 struct Facing {
   double s;
   bool corner;  ///< all its directions are on one side: its end is touched as a corner
@@ -102,7 +111,8 @@ Vector2d towards_the_line(const Piece& line, const MovingPoint& of, const Moving
 // The parameter of the contact point on a curve, in its own axes, if the other piece is not a curve.
 Facing foot_on(const CurveSpan& span, const MovingPoint& by, const Piece& other, const MovingPoint& of) {
   if (other.straight) return foot_facing(span, towards_the_line(other, of, by));
-  return {foot_under(span, turned(-by.angle, of.r + turned(of.angle, other.centre) - by.r)), false};
+  const Vector2d centre = turned(-by.angle, of.r + turned(of.angle, other.centre) - by.r);
+  return {is_hollow(other) ? foot_farthest(span, centre) : foot_under(span, centre), false};
 }
 Feet feet_of(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
   Feet out;
