@@ -107,7 +107,7 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
     if (!between && (parted || may_be_positive_between(from, to, t1 - t0))) between = positive_in_parts(along, t0, from, t1);
     if (!between) return std::nullopt;
     end = *between;
-  } else if (spent || leaves || from.value < 0) {  // it may have been positive earlier, and negative again
+  } else if (spent || leaves || !(from.value > w.zero)) {  // it may have been positive earlier, and negative again
     end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
   }
   if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and decreasing: start the search after it has decreased

@@ -72,6 +72,26 @@ TEST(LongStep, ASpinningBoxTouchesTheFloorWithItsNextCorner) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(coarse[i], fine[i], 1e-4);
 }
 
+// The corner that has just parted comes again within the same step, and is far outside at its end.
+TEST_P(LongSteps, ABoxTumblesInAHole) {
+  constexpr double hole = 0.25;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    SCOPED_TRACE(tolerance);
+    const Whole w =
+        run("gravity: [0, -9.81]\nground: {profiles: {hole: {hole: [0, 0], radius: 0.25}}}\n"
+            "bodies: {box: {rigid: {mass: 0.6, inertia: 1.4e-4}, profiles: {sides: {path: [[-0.03, -0.02], [0.03, -0.02], [0.03, 0.02], "
+            "[-0.03, 0.02]], closed: true}}}}\n"
+            "contacts: {hit: {between: [box.sides, ground.hole], normal: {hunt-crossley: {restitution: 0.9, stiffness: 1e9}}}}\n"
+            "start: {box: {at: [0.017, 0.04], angle: 4.092, vx: 1.716, vy: 1.426, speed: 19.64}}\n"
+            "run: {until: 0.6}\noutput: {every: 0.01, frames: 0}\n",
+            {GetParam().name, GetParam().words, tolerance, 0});
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    EXPECT_GE(w.run.impacts.size(), 4u);
+    const std::vector<double> x = w.column("box.x [m]"), y = w.column("box.y [m]");
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT(std::hypot(x[i], y[i]), hole) << i;
+  }
+}
+
 // A block with these rounded corners on a table that ends at x = 0, its centre 30 cm before the end.
 std::string block_on_table(const std::string& rounding, const std::string& law, double speed) {
   return "gravity: [0, -9.81]\nbodies:\n  box:\n    rigid: {mass: 1 kg, inertia: 1.7e-3 kg m^2}\n"
