@@ -114,7 +114,8 @@ def process(command):
     if time >= limit:
         raise Refused(f"not done after {limit} s")
     if child.returncode:
-        raise Refused(f"code {child.returncode}: {text.strip().splitlines()[0] if text.strip() else ''}"[:120])
+        words = [line for line in text.splitlines() if not line.startswith("==")]  # those are valgrind's
+        raise Refused(f"code {child.returncode}: {' '.join(words)}"[:120])
     return time, used.ru_maxrss / 1024, text
 
 
@@ -146,9 +147,8 @@ class Bench:
     def compare(self, sample, pairs=0, only=(old, new)):
         """`sample(program)` gives figures by name; both programs in turn: 7 pairs, 3 if one takes over 5 s, 1 if over 60 s. Returns for each
         program the medians of its figures, or why there are none, and the medians of new over old."""
-        figures, failed, longest = ([], []), {}, 0
-        failed.update({program: "not run" for program in {old, new} - set(only)})
-        done = 0
+        figures, longest, done = ([], []), 0, 0
+        failed = {program: "not run" for program in {old, new} - set(only)}
         while len(failed) < 2 and done < (pairs or (1 if longest > 60 else 3 if longest > 5 else 7)):
             for program in (old, new):
                 if program in failed:
@@ -160,22 +160,22 @@ class Bench:
                     failed[program] = str(why)
                 longest = max(longest, self.spent)
             done += 1
-        names = next((f[0] for f in reversed(figures) if f), {})
-        medians = [{n: failed[p] if p in failed else statistics.median(f[n] for f in figures[p]) for n in names} for p in (old, new)]
-        ratios = {} if failed else {n: statistics.median(b[n] / a[n] if a[n] else math.nan for a, b in zip(*figures)) for n in names}
-        return medians, ratios
+        median = lambda values: {name: statistics.median(v[name] for v in values) for name in values[0]}
+        ratios = [{name: b[name] / a[name] if a[name] else math.nan for name in a} for a, b in zip(*figures)]
+        return [failed[p] if p in failed else median(figures[p]) for p in (old, new)], {} if failed else median(ratios)
 
 
 def shown(value, scale, unit):
     if isinstance(value, str):
         return value
-    number = value * scale
-    return f"{number:,.0f} {unit}".replace(",", " ").strip() if abs(number) >= 1000 else f"{number:.3g} {unit}".strip()
+    number = f"{value * scale:,.0f}".replace(",", " ") if abs(value * scale) >= 1000 else f"{value * scale:.3g}"
+    return f"{number} {unit}".strip()
 
 
 def row(compared, name, what, unit="", scale=1.0, aim="", met=None):
     """A row of a table; `met(after, ratio)` judges the aim."""
-    (before, after), ratio = (medians.get(name, "–") for medians in compared[0]), compared[1].get(name, math.nan)
+    before, after = (figures if isinstance(figures, str) else figures[name] for figures in compared[0])
+    ratio = compared[1].get(name, math.nan)
     unknown = isinstance(after, str) or met is tenth and math.isnan(ratio)
     verdict = "" if met is None else "unknown" if unknown else "yes" if met(after, ratio) else "no"
     share = "–" if math.isnan(ratio) else f"{ratio:.3g}"
@@ -246,7 +246,7 @@ def reading(bench):
 
 
 def kernel(bench):
-    scenes = lambda *untils: (slider_crank(until, every="10 ms", method="dopri5", tolerance=1e-8) for until in untils)
+    scenes = lambda *untils: (slider_crank(until, every=until, method="dopri5", tolerance=1e-8) for until in untils)
     each = lambda a, few, b, many: (b - a) / (many["evaluations"] - few["evaluations"])
 
     def sample(program):
