@@ -43,21 +43,12 @@ double foot(const CurveSpan& span, const F& f) {
   return end + (back ? first.value : last.value) / speed;
 }
 
-// Parameter nearest to a point; h is the point's height above the surface.
-double foot_under(const CurveSpan& span, const Vector2d& point) {
+// Parameter nearest to a point (sign 1), or farthest from it (−1), where it touches a hollow arc about that point.
+double foot_of(const CurveSpan& span, const Vector2d& point, double sign) {
   return foot(span, [&](double s) {
     const CurvePoint p = span.at(s);
     const Vector2d up = point - p.at;
-    return Sloping{p.along.dot(up), -p.speed * (1 + p.curvature * up.dot(p.normal()))};
-  });
-}
-
-// Parameter farthest from a point: there it touches a hollow arc about that point.
-double foot_farthest(const CurveSpan& span, const Vector2d& point) {
-  return foot(span, [&](double s) {
-    const CurvePoint p = span.at(s);
-    const Vector2d out = p.at - point;
-    return Sloping{p.along.dot(out), p.speed * (1 - p.curvature * out.dot(p.normal()))};
+    return Sloping{sign * p.along.dot(up), -sign * p.speed * (1 + p.curvature * up.dot(p.normal()))};
   });
 }
 
@@ -112,7 +103,7 @@ Vector2d towards_the_line(const Piece& line, const MovingPoint& of, const Moving
 Facing foot_on(const CurveSpan& span, const MovingPoint& by, const Piece& other, const MovingPoint& of) {
   if (other.straight) return foot_facing(span, towards_the_line(other, of, by));
   const Vector2d centre = turned(-by.angle, of.r + turned(of.angle, other.centre) - by.r);
-  return {is_hollow(other) ? foot_farthest(span, centre) : foot_under(span, centre), false};
+  return {foot_of(span, centre, is_hollow(other) ? -1 : 1), false};
 }
 Feet feet_of(const PiecePair& pair, const MovingPoint& a, const MovingPoint& b) {
   Feet out;
