@@ -106,7 +106,7 @@ bool Integrator::act_at_end() {
   const std::optional<EventInStep> event = events_.due(step_.to.state);
   if (!event) return false;
   step_.from = step_.to;
-  step_.h = 0, step_.struck = false;
+  step_.h = 0, step_.ends_at_event = false;
   if (!events_.count(step_, event, motion(), control_.wish())) return stop(events_.again_and_again(), step_.to.state.t);
   if (!act_on(*event, control_.wish())) return false;
   stepper_->accept(eq_);
@@ -121,7 +121,7 @@ double Integrator::kink_ahead(double wish) const {
 // The last step's end becomes the start of a new step; the length of the first step is chosen here.
 bool Integrator::begin_step(double until) {
   std::swap(step_.from, step_.to);
-  step_.struck = false;
+  step_.ends_at_event = false;
   if (!go_back()) return false;
   if (!pass_law_change()) return false;
   step_.to.state.t = step_.from.state.t;
@@ -250,7 +250,7 @@ bool Integrator::act_on(const EventInStep& event, double wish) {
   control_.wish_for(remembered > 0 ? control_.bounded(remembered) : wish);
   if (outcome.of_every_method || stepper_->traits().follows_impacts) control_.wish_for(std::min(control_.wish(), outcome.first_step));
   control_.forget_errors();
-  step_.struck = true;
+  step_.ends_at_event = true;
   step_.dy_before = step_.to.dy;
   if (outcome.change == EventOutcome::Change::rows) eq_.permanent = 0;
   if (stepper_->project(step_.to, eq_)) return true;
@@ -266,7 +266,7 @@ bool Integrator::change(const std::function<void(State&)>& act) {
   hold_laws();
   control_.forget_errors();
   events_.forget_end();
-  step_.struck = true;
+  step_.ends_at_event = true;
   step_.dy_before = step_.to.dy;
   if (!stepper_->project(step_.to, eq_)) return stop("singular configuration where its state was changed", step_.to.state.t);
   look_at_end();
@@ -341,7 +341,7 @@ bool Integrator::sample(double t, State& out) {
   Step begin = step_;  // t is in the few roundings of time between the two sides of a change of a law
   begin.to = begin.from;
   begin.to.state.t = t;
-  begin.h = 0, begin.struck = false;
+  begin.h = 0, begin.ends_at_event = false;
   return stepper_->sample(begin, t, *sampled_, out);
 }
 

@@ -37,11 +37,11 @@ struct Step {
   Instant from, to;
   double h = 0;                   ///< [s]
   Eigen::VectorXd error;          ///< of the lower-order solution, as y
-  bool struck = false;            ///< an event at its end changed forces or the state …
+  bool ends_at_event = false;     ///< which changed forces or the state …
   Eigen::VectorXd y_before = {};  ///< … from these values, which end the step's dense output
   Eigen::VectorXd dy_before = {};
-  const Eigen::VectorXd& y_end() const { return struck ? y_before : to.state.y; }
-  const Eigen::VectorXd& dy_end() const { return struck ? dy_before : to.dy; }
+  const Eigen::VectorXd& y_end() const { return ends_at_event ? y_before : to.state.y; }
+  const Eigen::VectorXd& dy_end() const { return ends_at_event ? dy_before : to.dy; }
 };
 
 inline constexpr double short_part =

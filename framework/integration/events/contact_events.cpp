@@ -134,25 +134,22 @@ std::optional<double> rise(const F& guard, double begin, const Guard& from, doub
 
 // A long step may move a body through a wall, or from beside a piece onto it. So parts of the step are examined: an onset is where the
 // overlap or the margin becomes positive while the other is. Parts in which the gap is too wide to close are passed over, up to a sixteenth.
-std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+std::optional<double> ContactEvents::positive_inside(int event, const Step& step, const DenseOutput& motion, double until) const {
   if (leaving(event) < 0 && log_.touching(event) && is_rigid(system_.contacts[at(event)]) && motion.knows_held_forces()) {
     const auto left = [&](double t) { return pressed(event, motion.at(t)).value; };
     return below_zero_inside(left, step, pressed(event, step.from.state).value, known_inside(tolerance_));
   }
   if (leaving(event) >= 0 || !system_.contacts[at(event)].profiles || log_.touching(event)) return std::nullopt;
-  const int parts = parts_to_look_at(system_, event, step);
+  const auto [parts, reach] = to_examine(system_, event, step);
   if (parts == 0) return std::nullopt;
   const auto depth = [&](double t) { return gap_of(system_, event, motion.at(t)); };
   const auto inside = [&](double t) {
     const Margin m = margin_of(system_, event, motion.at(t));
     return Guard{m.value, m.rate};
   };
-  const auto reach_of = [&](const Gap& gap) { return 4 * std::hypot(gap.rate, gap.sideways) * step.h; };
-  const double reach =
-      std::max(reach_of(pressing(system_, event, step.from.state).gap), reach_of(pressing(system_, event, step.to.state).gap));
   double begin = step.from.state.t + 1e-9 * step.h;
   Guard depth_before = depth(begin), inside_before = inside(begin);
-  for (int i = 1; i <= parts; ++i) {
+  for (int i = 1; i <= parts && begin < until; ++i) {
     if (reach > 0) i = std::min(parts, i + static_cast<int>(std::clamp(-depth_before.value / reach * parts - 1, 0.0, parts / 16.0)));
     const double end = step.from.state.t + step.h * i / parts;
     const Guard depth_now = depth(end), inside_now = inside(end);

@@ -21,7 +21,7 @@ class ContactEvents final : public EventGroup {
   WatchedGuard watch(int event) const override;
   Guard guard(int event, const State& state) const override;
   Guard guard(int event, const State&, const Equations&) const override;
-  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&, double until) const override;
   bool met(int event, const Guard&) const override;
   void start(Step&) override;
   void begin_step(const State&) override;

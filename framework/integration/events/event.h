@@ -86,8 +86,8 @@ class EventGroup {
   /// The same, with the equations evaluated at the state.
   virtual Guard guard(int event, const State&, const Equations&) const = 0;
   /// For a guard that is negative at both ends of a step: a time inside at which it is positive, where the guard's rates at the ends do not
-  /// reveal it.
-  virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&) const { return std::nullopt; }
+  /// reveal it. @param until  later times need not be examined
+  virtual std::optional<double> positive_inside(int, const Step&, const DenseOutput&, double /*until*/) const { return std::nullopt; }
   /// Called before events in an attempted step are searched for. If the guard stays at zero, decides on which side of zero it counts, and
   /// shifts the guards of the step's two ends accordingly.
   virtual void decide_at_zero(int /*event*/, const Step&, const DenseOutput&, Guard& /*from*/, Guard& /*to*/) {}

@@ -86,8 +86,8 @@ std::optional<EventInStep> Events::passed_by_end(const Step& step) const {
   return out;
 }
 
-// Time of an event in the step, by dense output; nothing if it does not occur.
-std::optional<double> Events::passage(std::size_t at, const Step& step, const DenseOutput& motion) const {
+// Time of an event in the step, by dense output; nothing if it does not occur, or perhaps if it occurs after `until`.
+std::optional<double> Events::passage(std::size_t at, const Step& step, const DenseOutput& motion, double until) const {
   const WatchedGuard& w = watched_[at];
   const double t0 = step.from.state.t, t1 = step.to.state.t;
   const Guard from = turned(from_[at], w), to = turned(to_[at], w);
@@ -101,14 +101,14 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
   const bool leaves = !spent && from.value > w.zero && from.rate < 0 && left < t1 && along(left).value < 0;
   if (!(to.value > 0)) {
     std::optional<double> between;  // the closest look comes first: others may find a later time
-    if (spent || leaves || !(from.value > w.zero)) between = group(at).positive_inside(places_[at].event, step, motion);
+    if (spent || leaves || !(from.value > w.zero)) between = group(at).positive_inside(places_[at].event, step, motion, until);
     if (!between && from.rate > 0 && to.rate < 0) between = positive_between(along, t0, t1, from.rate, to.rate);
     const bool parted = leaves || ((spent || std::abs(from.value) <= w.zero) && from.rate < 0);
     if (!between && (parted || may_be_positive_between(from, to, t1 - t0))) between = positive_in_parts(along, t0, from, t1);
     if (!between) return std::nullopt;
     end = *between;
   } else if (spent || leaves || !(from.value > w.zero)) {  // it may have been positive earlier, and negative again
-    end = group(at).positive_inside(places_[at].event, step, motion).value_or(t1);
+    end = group(at).positive_inside(places_[at].event, step, motion, until).value_or(t1);
   }
   if (spent || (from.value > -w.zero && from.rate < 0)) {  // at zero and decreasing: start the search after it has decreased
     const double away = std::min(from.value, spent ? -w.zero : 0.0);
@@ -130,24 +130,28 @@ std::optional<double> Events::passage(std::size_t at, const Step& step, const De
 std::optional<EventInStep> Events::first(const Step& step, const DenseOutput& motion, const Equations* evaluated) {
   look_at_end(step, evaluated);
   constexpr double together = 1e-6;  // relative to the step: events so near in time may act in either order
+  constexpr double beyond = 0.05;    // relative to the step: so much later than by dense output an event may really come
   second_ = std::numeric_limits<double>::infinity(), together_ = together * step.h;
   for (std::size_t k = 0; k < places_.size(); ++k)
     if (watched_[k].level) group(k).decide_at_zero(places_[k].event, step, motion, from_[k], to_[k]);
   const std::optional<EventInStep> at_end = passed_by_end(step);
   if (at_end && turned(to_[at_end->at], at_end->watch).value > at_end->watch.overshoot) return at_end;  // passed too far
   std::optional<EventInStep> out;
+  double until = step.to.state.t;  // what may come later than this is not searched for
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const WatchedGuard& w = watched_[k];
     if (w.direction == Direction::none || w.overshoot > 0) continue;
-    const std::optional<double> t = passage(k, step, motion);
+    const std::optional<double> t = passage(k, step, motion, until);
     if (!t) continue;
     if (!out || *t < out->t) {
       if (out) second_ = out->t;
       out = {k, w, *t};
+      until = std::min(step.to.state.t, *t + beyond * step.h);
     } else {
       second_ = std::min(second_, *t);
     }
   }
+  if (until < step.to.state.t) second_ = std::min(second_, until + together_);
   return out ? out : at_end;
 }
 

@@ -88,7 +88,7 @@ class Events {
   Guard guard(std::size_t at, const State& state) const { return group(at).guard(places_[at].event, state); }
   std::optional<EventInStep> passed_by_end(const Step&) const;
   Ending bisect(const EventInStep&, double low, double high, Stepper&, const ErrorNorm&, Step&, Equations&);
-  std::optional<double> passage(std::size_t at, const Step&, const DenseOutput&) const;
+  std::optional<double> passage(std::size_t at, const Step&, const DenseOutput&, double until) const;
 
   std::vector<std::unique_ptr<EventGroup>> groups_;
   std::vector<std::size_t> begin_;  ///< index of the first event of each group; one past
@@ -99,7 +99,7 @@ class Events {
   bool still_ = false;                  ///< nothing has moved between the last two events counted
   std::vector<unsigned char> spent_;    ///< the event has acted and its guard has not returned since
   std::vector<Wishes> wishes_;          ///< of each group
-  double second_ = 0;                   ///< when the second event of the step occurs, by dense output [s] …
+  double second_ = 0;                   ///< when the second event of the step occurs, by dense output, if it is known so far [s] …
   double together_ = 0;                 ///< … and how long before the first it may really be [s]
   int here_ = 0;                        ///< events at the present instant
   int crowd_ = 0;                       ///< events with hardly any time passing or nothing moving between them …

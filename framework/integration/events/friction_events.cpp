@@ -118,7 +118,7 @@ Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& no
 }
 
 // A slip that reaches 0 and returns within one step, or a force that reaches its limit and returns.
-std::optional<double> FrictionEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+std::optional<double> FrictionEvents::positive_inside(int event, const Step& step, const DenseOutput& motion, double) const {
   const DryFriction& dry = step.from.state.friction[place(event)];
   if (dry.direction == DryFriction::undecided || of_sliding(event) == (dry.direction == 0)) return std::nullopt;
   if (!dry_law(system_, place(event))) return std::nullopt;  // it neither sticks nor slips

@@ -223,7 +223,7 @@ double time_of_force(const System& system, int contact, const State& from, doubl
   return h > short_part * fixed_step && was_pressed(system, contact, from) ? h : fixed_step;
 }
 
-int parts_to_look_at(const System& system, int contact, const Step& step) {
+ToExamine to_examine(const System& system, int contact, const Step& step) {
   constexpr double faster = 2, least = 16, most = 4096;
   const ContactPair& pair = system.contacts[at(contact)];
   double speed = 0, rate = 0, near = -std::numeric_limits<double>::infinity(), onset = near;
@@ -232,18 +232,19 @@ int parts_to_look_at(const System& system, int contact, const Step& step) {
     speed = std::max(speed, std::hypot(gap.rate, gap.sideways));
     near = std::max(near, gap.depth);
   }
-  if (near < -faster * speed * step.h) return 0;
+  if (near < -faster * speed * step.h) return {};
   for (const State* state : {&step.from.state, &step.to.state}) {
     rate = std::max({rate, speed, std::abs(margin_of(system, contact, *state).rate)});
     onset = std::max(onset, onset_of(system, contact, *state).value);
   }
-  if (onset < -faster * rate * step.h) return 0;
+  if (onset < -faster * rate * step.h) return {};
   double size = std::min(system.length, pair.deepest);
   for (const Piece* piece : {&pair.gap.a, &pair.gap.b}) {
     const double length = piece->straight || piece->curve ? piece->half : std::abs(piece->radius) * std::min(piece->half, 1.0);
     if (length > 0) size = std::min(size, 2 * length);
   }
-  return static_cast<int>(std::clamp(4 * speed * step.h / size, least, most));
+  const double reach = 4 * speed * step.h;
+  return {static_cast<int>(std::clamp(reach / size, least, most)), reach};
 }
 
 Margin margin_of(const System& system, int contact, const State& state) {

@@ -26,9 +26,12 @@ bool was_pressed(const System&, int contact, const State& from);
 /// fixed step for an impact, and for a remainder of a step too short to resolve forces.
 double time_of_force(const System&, int contact, const State& from, double h, double fixed_step);
 
-/// The number of parts of a step to examine for touching: in each the motion is at most a quarter of the smaller piece, at the speeds of
-/// the step's ends. 0: even at twice these speeds they are too far apart to meet.
-int parts_to_look_at(const System&, int contact, const Step&);
+struct ToExamine {
+  int parts = 0;     ///< of the step; 0: even at twice the speeds of the step's ends the pieces are too far apart to meet
+  double reach = 0;  ///< four times the distance between them that is covered at these speeds [m]
+};
+/// How closely to examine a step for touching: in each part the motion is at most a quarter of the smaller piece.
+ToExamine to_examine(const System&, int contact, const Step&);
 
 /// Log of the contacts of each journal with its bearing's wall: updated as each begins, lasts and ends.
 class ImpactLog {

@@ -113,7 +113,7 @@ Guard LawEvents::guard(int event, const State& state) const {
 bool LawEvents::met(int event, const Guard& guard) const { return std::abs(guard.value) <= (event == 0 ? switch_rounding : mark_near); }
 
 // Examines parts of the step, and maxima of switches near the ends of their sides between three points.
-std::optional<double> LawEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+std::optional<double> LawEvents::positive_inside(int event, const Step& step, const DenseOutput& motion, double) const {
   constexpr int parts = 8;
   std::array<std::vector<double>, 3> left;
   std::array<double, 3> t{};

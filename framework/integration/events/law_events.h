@@ -27,7 +27,7 @@ class LawEvents final : public EventGroup {
   WatchedGuard watch(int event) const override;
   Guard guard(int event, const State&) const override;
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
-  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&, double until) const override;
   bool met(int event, const Guard&) const override;
   void start(Step&) override;
   void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;

@@ -151,7 +151,7 @@ Guard SceneEvents::guard(int event, const State& state) const {
 
 // Examines parts of the step, and in each the zeros of every comparison, of its kinks, and of minima between three points: between two of
 // these no comparison changes.
-std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion) const {
+std::optional<double> SceneEvents::positive_inside(int event, const Step& step, const DenseOutput& motion, double) const {
   constexpr int parts = 8;
   constexpr double fine = 1e-12;
   if (waits_[at(event)] == Waits::no_more) return std::nullopt;

@@ -61,7 +61,7 @@ class SceneEvents final : public EventGroup {
   WatchedGuard watch(int event) const override;
   Guard guard(int event, const State&) const override;
   Guard guard(int event, const State& state, const Equations&) const override { return guard(event, state); }
-  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&) const override;
+  std::optional<double> positive_inside(int event, const Step&, const DenseOutput&, double until) const override;
   void decide_at_zero(int event, const Step&, const DenseOutput&, Guard& from, Guard& to) override;
   bool comes_at_zero(int event, const State&) const override;
   bool met(int event, const Guard&) const override;
