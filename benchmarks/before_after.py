@@ -3,7 +3,7 @@ time of a whole process, user and system. The old and the new program run in tur
 pairs. Counts beside the times are from run.json (evaluations, factorizations, steps) and from callgrind (instructions).
 
     python3 benchmarks/before_after.py OLD/pintle NEW/pintle                     prints; --only NAME ... takes the groups named
-    python3 benchmarks/before_after.py OLD/pintle NEW/pintle --write             writes docs/speed.md
+    python3 benchmarks/before_after.py OLD/pintle NEW/pintle --write             writes the tables of docs/speed.md
 """
 
 import argparse
@@ -364,14 +364,7 @@ groups = {"rows": ("Rows", rows), "frames": ("Frames", frames), "start": ("Start
           "totals": ("Whole runs", totals), "sweep": ("Sweep", sweep), "modes": ("Shapes", modes), "chains": ("Chains", chains),
           "eigenmodes": ("Eigenmodes", eigenmodes), "reading": ("Reading", reading)}
 
-head = f"""# Speed before and after
-
-What work cost before a change and what it costs after it, with the aim that was set. `python3 benchmarks/before_after.py OLD/pintle NEW/pintle
---write` measures two programs and writes this page. Times are processor times of whole processes, user and system; the programs run in turn, seven
-pairs, three if one takes over 5 s, one if over 60 s, and a process ends after {limit} s. Times are medians, the ratio is the median of after over
-before. Counts are those of `run.json`; instructions are counted by callgrind. Other pages: [error against time](performance.md),
-[counts](counts.md).
-"""
+mark = "<!-- What follows is written by benchmarks/before_after.py --write. -->\n"
 table = "| | aim | before | after | ratio | met |\n|---|---|---|---|---|---|\n"
 
 
@@ -382,7 +375,7 @@ def main():
     options.add_argument("--only", nargs="+", choices=groups, default=list(groups))
     options.add_argument("--write", action="store_true")
     chosen = options.parse_args()
-    text = head
+    text = page.read_text().split(mark)[0] + mark
     with tempfile.TemporaryDirectory() as place:
         bench = Bench([chosen.old.resolve(), chosen.new.resolve()], Path(place))
         for name in chosen.only:
