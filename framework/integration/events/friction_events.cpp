@@ -43,10 +43,10 @@ FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : sys
   fastest_.resize(dry_.size());
 }
 
-// A slip below this counts as zero; it depends on the fastest slip so far [m/s].
+// A slip below this counts as zero; it depends on the fastest slip, and the fastest motion, so far [m/s].
 double FrictionEvents::still(int event) const {
-  constexpr double part = 1e-10, least = 1e-13;  // relative to its fastest slip; to the mechanism's length per second
-  return std::max(part * fastest_[static_cast<std::size_t>(event / 2)], least * system_.length);
+  constexpr double part = 1e-10;
+  return part * fastest_[static_cast<std::size_t>(event / 2)];
 }
 
 std::string FrictionEvents::name(int event) const {
@@ -145,7 +145,19 @@ bool FrictionEvents::met(int event, const Guard& at_end) const {
   return std::abs(at_end.value) <= (of_sliding(event) ? still(event) / 2 : known);
 }
 
+namespace {
+
+// Slips that are slow beside the motion of all bodies are its rounding.
+void see_motion(const System& system, const State& state, std::vector<double>& fastest) {
+  constexpr double part = 1e-3;
+  const double motion = part * system.length * fastest_rate(system, state.y);
+  for (double& slip : fastest) slip = std::max(slip, motion);
+}
+
+}  // namespace
+
 void FrictionEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard> to, const DenseOutput&) {
+  see_motion(system_, step.to.state, fastest_);
   for (int event = 0; event < size(); event += 2)
     if (const double d = step.to.state.friction[place(event)].direction; std::abs(d) == 1 && touches(place(event), step.to.state)) {
       double& fastest = fastest_[static_cast<std::size_t>(event / 2)];
@@ -160,7 +172,10 @@ const char* FrictionEvents::fault() const {
   return sound ? nullptr : foreign_modes;
 }
 
-void FrictionEvents::start(Step& step) { decide(step.to.state, {}); }
+void FrictionEvents::start(Step& step) {
+  see_motion(system_, step.to.state, fastest_);
+  decide(step.to.state, {});
+}
 
 EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
   const std::size_t k = place(event);
