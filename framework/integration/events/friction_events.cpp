@@ -43,7 +43,7 @@ FrictionEvents::FrictionEvents(const System& system, const Scheme& scheme) : sys
   fastest_.resize(dry_.size());
 }
 
-// A slip below this counts as zero; it depends on the fastest slip, and the fastest motion, so far [m/s].
+// A slip below this counts as zero; it depends on the fastest slip and the fastest motion so far [m/s].
 double FrictionEvents::still(int event) const {
   constexpr double part = 1e-10;
   return part * fastest_[static_cast<std::size_t>(event / 2)];
@@ -148,16 +148,20 @@ bool FrictionEvents::met(int event, const Guard& at_end) const {
 namespace {
 
 // Slips that are slow beside the motion of all bodies are its rounding.
-void see_motion(const System& system, const State& state, std::vector<double>& fastest) {
+void see_motion(double speed, std::vector<double>& fastest) {
   constexpr double part = 1e-3;
-  const double motion = part * system.length * fastest_rate(system, state.y);
-  for (double& slip : fastest) slip = std::max(slip, motion);
+  for (double& slip : fastest) slip = std::max(slip, part * speed);
+}
+double speed_of_motion(const System& system, const State& state) { return system.length * fastest_rate(system, state.y); }
+// Of what falls through the mechanism; without gravity, its length in a second.
+double expected_speed(const System& system) {
+  return has_gravity(system) ? std::sqrt(system.gravity.norm() * system.length) : system.length;
 }
 
 }  // namespace
 
 void FrictionEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard> to, const DenseOutput&) {
-  see_motion(system_, step.to.state, fastest_);
+  see_motion(speed_of_motion(system_, step.to.state), fastest_);
   for (int event = 0; event < size(); event += 2)
     if (const double d = step.to.state.friction[place(event)].direction; std::abs(d) == 1 && touches(place(event), step.to.state)) {
       double& fastest = fastest_[static_cast<std::size_t>(event / 2)];
@@ -173,7 +177,7 @@ const char* FrictionEvents::fault() const {
 }
 
 void FrictionEvents::start(Step& step) {
-  see_motion(system_, step.to.state, fastest_);
+  see_motion(std::max(expected_speed(system_), speed_of_motion(system_, step.to.state)), fastest_);
   decide(step.to.state, {});
 }
 
