@@ -7,6 +7,9 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "contact/cylinder_law.h"
 #include "framework/build/clearance.h"
@@ -267,11 +270,29 @@ BuiltContact build_pairs(const Scene& scene, const SceneContact& c, const Profil
   return out;
 }
 
+namespace {
+
+// How far from the origin a surface of the ground is, along its normal if it is straight: coordinates there are rounded to 1e-16 of this.
+double distance_from_origin(const System& system, const ContactPair& pair) {
+  double out = 0;
+  for (const auto& [marker, piece] : {std::pair(pair.a, &pair.gap.a), std::pair(pair.b, &pair.gap.b)}) {
+    const Marker& m = system.markers[at(marker)];
+    if (m.body != ground) continue;
+    const Vector2d middle = m.x_BP + Eigen::Rotation2Dd(m.angle) * piece->centre;
+    const double normal = m.angle + piece->normal;
+    out = std::max(out,
+                   piece->straight ? std::abs(middle.dot(Vector2d(std::cos(normal), std::sin(normal)))) : middle.lpNorm<Eigen::Infinity>());
+  }
+  return out;
+}
+
+}  // namespace
+
 void allow_rounding(System& system) {
-  constexpr double flush = 1e-9;
+  constexpr double flush = 1e-9, rounding = 8 * std::numeric_limits<double>::epsilon();  // of some sums and differences
   for (ContactPair& pair : system.contacts) {
     if (!is_rigid(pair)) continue;
-    pair.slack = touching_part * system.length;
+    pair.slack = std::max(touching_part * system.length, rounding * distance_from_origin(system, pair));
     const std::array<const Piece*, 2> pieces{&pair.gap.a, &pair.gap.b};
     for (std::size_t side = 0; pair.profiles && side < 4; ++side)
       if (const Piece& piece = *pieces[side / 2]; piece.straight && std::isfinite(piece.half) && pair.beyond[side] < 0)

@@ -149,6 +149,9 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
   };
   double begin = step.from.state.t + 1e-9 * step.h;
   Guard depth_before = depth(begin), inside_before = inside(begin);
+  const double clear = watch(event).zero;
+  for (double part = 2e-9; part * parts < 1 && depth_before.value > -clear && depth_before.rate < 0; part *= 2)  // it has just parted
+    begin = step.from.state.t + part * step.h, depth_before = depth(begin), inside_before = inside(begin);
   for (int i = 1; i <= parts && begin < until; ++i) {
     if (reach > 0) i = std::min(parts, i + static_cast<int>(std::clamp(-depth_before.value / reach * parts - 1, 0.0, parts / 16.0)));
     const double end = step.from.state.t + step.h * i / parts;

@@ -46,5 +46,56 @@ TEST_P(Similar, ARockingBlockComesToRestAtEveryScale) {
   }
 }
 
+// Where coordinates are rounded to more than 1e-13 of the ball's size.
+TEST_P(Similar, ABallComesToRestOnAFloorFarFromTheOrigin) {
+  constexpr double r = 0.1, e = 0.8, fall = 0.4472135954999579;  // the time in which it falls 1 m at 10 m/s^2 [s]
+  for (const double height : {0.0, 300.0, -1e4, 5.4e6}) {
+    SCOPED_TRACE(height);
+    const std::string floor = number(height);
+    const Whole w =
+        run("gravity: [0, -10]\nbodies: {ball: {rigid: {mass: 1, inertia: 0.004}, profiles: {rim: {disc: [0, 0], radius: 0.1}}}}\n"
+            "ground: {profiles: {floor: {path: [[-3, " +
+                floor + "], [6, " + floor +
+                "]], material: right}}}\n"
+                "contacts: {floor: {between: [ball.rim, ground.floor], model: impact, restitution: 0.8}}\nstart: {ball: {at: [0, " +
+                number(height + r + 1) + "]}}\nrun: {until: 5}\noutput: {every: 1, frames: 0}\n",
+            {GetParam().name, GetParam().words, 1e-6, 0});
+    ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+    ASSERT_GT(w.run.impacts.size(), 10u);
+    const double known = 1e-13 + 1e-15 * std::abs(height);  // [m]
+    double begin = fall, speed = 10 * fall;
+    for (std::size_t i = 0; i < 10; ++i, speed *= e) {
+      EXPECT_NEAR(w.run.impacts[i].begin, begin, 10 * (static_cast<double>(i) + 1) * known / speed) << i;
+      begin += 2 * e * speed / 10;
+    }
+    EXPECT_NEAR(w.last("ball.y [m]"), height + r, 10 * known);
+  }
+}
+
+// It tumbles and rocks; its smallest bounces are shorter than a part of the step in which they are looked for.
+TEST_P(Similar, ABlockTumblesToRestFarFromTheOrigin) {
+  constexpr double right_angle = 1.5707963267948966;
+  const auto end = [](double height) {
+    const std::string floor = number(height);
+    const Whole w = run(
+        "gravity: [0, -10]\nbodies: {block: {rigid: {mass: 1, inertia: 0.0066666666666666667}, profiles: {outline: {path: [[-0.1, -0.1], "
+        "[0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]], closed: true}}}}\nground: {profiles: {floor: {path: [[-3, " +
+            floor + "], [6, " + floor +
+            "]], material: right}}}\ncontacts: {floor: {between: [block.outline, ground.floor], model: impact, restitution: 0.4, "
+            "friction: {coulomb: {coefficient: 0.4}}}}\nstart: {block: {angle: 20 deg, at: [0, " +
+            number(height + 0.6) + "], velocity: [1, 0], speed: 5}}\nrun: {until: 4}\noutput: {every: 1, frames: 0}\n",
+        {GetParam().name, GetParam().words, 1e-6, 0});
+    EXPECT_EQ(w.run.status, Status::finished) << w.run.reason;
+    EXPECT_NEAR(w.last("block.y [m]"), height + 0.1, 1e-12 + 1e-14 * std::abs(height));
+    EXPECT_NEAR(std::remainder(w.last("block.angle [rad]"), right_angle), 0, 1e-6);
+    return w.last("block.x [m]");
+  };
+  const double here = end(0);
+  for (const double height : {300.0, -1e4, 3e4, 5.4e6}) {
+    SCOPED_TRACE(height);
+    EXPECT_NEAR(end(height), here, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace pintle::similar_test
