@@ -140,7 +140,7 @@ VectorXd change_of_one_contact(const System& system, const State& state, const E
 VectorXd friction_change(const System& system, const State& state, const Equations& eq, const FrictionResponse& by, Shares shares,
                          const VectorXd& slips, const VectorXd& lambda, const VectorXd& before) {
   constexpr int most = 30;
-  constexpr double enough = 1e-13, little = 1e-6;
+  constexpr double enough = 1e-13, little = 1e-6, rounding = 4e-16;
   const Sticking& s = eq.sticking;
   if (is_of_one_contact(s)) return change_of_one_contact(system, state, eq, by, shares, slips, before);
   const Coupled with = couple(system, state, eq, by);
@@ -172,10 +172,11 @@ VectorXd friction_change(const System& system, const State& state, const Equatio
   for (int i = 0; i < most && slide.size() > 0; ++i) {
     const double scale = largest(loads) + largest(left), error = largest(left);
     const bool stagnates = error <= enough * (scale + others) && error > std::exchange(left_before, error) / 2;
-    if (error <= enough * scale || stagnates) break;
+    const bool balanced = error <= rounding * (largest(sliding) + largest(part(before, slide)));
+    if (error <= enough * scale || balanced || stagnates) break;
     if (i + 1 == most) return VectorXd::Constant(before.size(), std::numeric_limits<double>::quiet_NaN());
     MatrixXd slope(sliding.size(), sliding.size());
-    const double h = little * scale;
+    const double h = little * std::max(scale, largest(sliding));  // the load may have vanished
     for (Index j = 0; j < sliding.size(); ++j) slope.col(j) = (missed(sliding + h * VectorXd::Unit(sliding.size(), j)) - left) / h;
     sliding -= slope.partialPivLu().solve(left);
     left = missed(sliding);
