@@ -235,10 +235,21 @@ Profile profile_of(const Scene& scene, const Markers& markers, const PointRef& r
   return {};
 }
 
+namespace {
+
+bool is_never_released(const Scene& scene, const SceneJoint& joint) {
+  const auto releases = [&](const SceneDoing& doing) { return std::ranges::find(doing.release, joint.name) != doing.release.end(); };
+  return joint.engaged &&
+         std::ranges::none_of(scene.events, [&](const SceneEvent& e) { return releases(e.then) || releases(e.otherwise); });
+}
+
+}  // namespace
+
 BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
                            int first) {
   for (const SceneJoint& j : scene.joints)
-    if (word_of(j).pins && word_of(j).clamps && std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
+    if (word_of(j).pins && word_of(j).clamps && is_never_released(scene, j) &&
+        std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
       throw SceneError(scene.file, c.place,
                        "the weld " + quoted(j.name) + " joins these two bodies rigidly, so they need no contact; leave the contact out");
   ContactPair like = laws_of(scene, c, a, b);

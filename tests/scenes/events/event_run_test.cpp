@@ -230,5 +230,23 @@ TEST(EventWarning, NamesTheEventsThatNeverCame) {
   EXPECT_EQ(never_came(s, run(s).run), (std::vector<std::string>{"late", "far"}));
 }
 
+// A weld that holds for ever makes a contact of its two bodies pointless; one that an event releases does not.
+TEST(EventRun, ABallThatAWeldLetsGoLandsOnItsFloor) {
+  const auto scene = [](const std::string& events) {
+    return "gravity: [0, -9.81]\nground: {points: {L: [0, 1]}, profiles: {floor: {path: [[-1, 0], [1, 0]], material: right}}}\n"
+           "bodies: {ball: {rigid: {mass: 1, inertia: 0.01}, points: {P: [0, 0]}, profiles: {rim: {disc: [0, 0], radius: 0.1}}}}\n"
+           "joints: {latch: {weld: [ground.L, ball.P]}}\n"
+           "contacts: {foot: {between: [ball.rim, ground.floor], model: impact, restitution: 0}}\n" +
+           events + "start: {ball: {at: [0, 1]}}\nrun: {until: 2 s}\n";
+  };
+  const Whole w = run(scene("events: {go: {when: t > 0.5 s, once: true, do: {release: latch}}}\n"));
+  expect_sound(w);
+  EXPECT_NEAR(w.last("ball.y [m]"), 0.1, 1e-9);
+  ASSERT_EQ(w.run.impacts.size(), 1u);
+  EXPECT_NEAR(w.run.impacts[0].begin, 0.5 + std::sqrt(2 * 0.9 / 9.81), 1e-9);
+  pintle_test::expect_one_line(pintle_test::refusal_by<std::exception>([&] { build(read_scene_text(scene(""), "scene.yaml")); }),
+                               "scene.yaml:5: contacts.foot", {"the weld \"latch\" joins these two bodies rigidly"});
+}
+
 }  // namespace
 }  // namespace pintle_scenes::event_run_test
