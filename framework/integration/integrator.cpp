@@ -11,6 +11,7 @@
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
+#include "framework/integration/events/deep_overlap.h"
 #include "framework/integration/events/friction_events.h"
 #include "framework/integration/law_changes.h"
 #include "framework/integration/trial.h"
@@ -97,7 +98,7 @@ bool Integrator::advance(double until) {
   if (event && !act_on(*event, wish)) return false;
   stepper_->accept(eq_);
   look_at_end();
-  return event || switch_method();
+  return failure_.empty() && (event || switch_method());
 }
 
 bool Integrator::act_at_end() {
@@ -111,7 +112,7 @@ bool Integrator::act_at_end() {
   if (!act_on(*event, control_.wish())) return false;
   stepper_->accept(eq_);
   look_at_end();
-  return true;
+  return failure_.empty();
 }
 
 double Integrator::kink_ahead(double wish) const {
@@ -270,7 +271,7 @@ bool Integrator::change(const std::function<void(State&)>& act) {
   step_.dy_before = step_.to.dy;
   if (!stepper_->project(step_.to, eq_)) return stop("singular configuration where its state was changed", step_.to.state.t);
   look_at_end();
-  return true;
+  return failure_.empty();
 }
 
 void Integrator::hold_laws() {
@@ -283,6 +284,8 @@ void Integrator::look_at_end() {
   norm_.see(y);
   worst_position_ = worse(worst_position_, position_violation(system_, eq_));
   worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
+  if (const std::string why = deep_overlap(system_, step_.to.state, stepper_->traits().fixed_step); !why.empty())
+    stop(why, step_.to.state.t);
 }
 
 long Integrator::cost() const { return cost_of(eq_, implicit()); }

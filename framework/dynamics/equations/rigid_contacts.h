@@ -20,9 +20,10 @@ Closed closed_contacts(const System&, const State&, const Equations&);
 /// Impulses by Newton's law of restitution: a gap that closed at speed −v⁻ opens at −e v⁻ or more; a slip that friction stops continues at
 /// −e_T times its speed. Unknowns are the columns of W.
 /// @param e  effective restitution of each contact   @param before, free  v⁻, and the speeds without impulses
-/// @returns nothing if none are found
+/// @param terms  |J|ᵀ|s|: the speeds of the bodies there, without cancellation
+/// @returns nothing if none are found that stop all bodies
 std::optional<Eigen::VectorXd> newton_impulses(const System&, const Closed&, std::span<const double> e, const Eigen::MatrixXd& W,
-                                               const Eigen::VectorXd& before, const Eigen::VectorXd& free);
+                                               const Eigen::VectorXd& before, const Eigen::VectorXd& free, const Eigen::VectorXd& terms);
 /// Records the energy that impulses x remove from the motion, computed with the mean of the speeds before and after.
 void book_impulses(const System&, const Closed&, const Eigen::VectorXd& x, const Eigen::VectorXd& mean, State&);
 /// Records the energy that drivers put in by impulses of the joints.

@@ -288,10 +288,9 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
   State after = state;
   const std::optional<std::vector<Blow>> blows = pintle::strike(system_, touching, after, *eq_);
   if (!blows)
-    return {.failure =
-                name(touching.front()) +
-                ": no impulses can stop the bodies that meet here; they may be wedged between others; leave a clearance, or give the "
-                "contact a law with a stiffness"};
+    return {.failure = name(touching.front()) +
+                       ": no impulses can stop these bodies: a driver presses them together, or they are wedged between others; leave a "
+                       "clearance, or give the contact a law with a stiffness"};
   for (const Blow& blow : *blows)
     if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
       log_.begin(blow.contact, state, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));
