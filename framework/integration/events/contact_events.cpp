@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "framework/common/index.h"
 #include "framework/common/archive.h"
@@ -142,20 +143,22 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
   if (leaving(event) >= 0 || !system_.contacts[at(event)].profiles || log_.touching(event)) return std::nullopt;
   const auto [parts, reach] = to_examine(system_, event, step);
   if (parts == 0) return std::nullopt;
-  const auto depth = [&](double t) { return gap_of(system_, event, motion.at(t)); };
-  const auto inside = [&](double t) {
-    const Margin m = margin_of(system_, event, motion.at(t));
-    return Guard{m.value, m.rate};
+  const auto look = [&](double t) {
+    const State& now = motion.at(t);
+    const Margin m = margin_of(system_, event, now);
+    return std::pair(gap_of(system_, event, now), Guard{m.value, m.rate});
   };
+  const auto depth = [&](double t) { return gap_of(system_, event, motion.at(t)); };
+  const auto inside = [&](double t) { return look(t).second; };
   double begin = step.from.state.t + 1e-9 * step.h;
-  Guard depth_before = depth(begin), inside_before = inside(begin);
+  auto [depth_before, inside_before] = look(begin);
   const double clear = watch(event).zero;
   for (double part = 2e-9; part * parts < 1 && depth_before.value > -clear && depth_before.rate < 0; part *= 2)  // it has just parted
-    begin = step.from.state.t + part * step.h, depth_before = depth(begin), inside_before = inside(begin);
+    begin = step.from.state.t + part * step.h, std::tie(depth_before, inside_before) = look(begin);
   for (int i = 1; i <= parts && begin < until; ++i) {
     if (reach > 0) i = std::min(parts, i + static_cast<int>(std::clamp(-depth_before.value / reach * parts - 1, 0.0, parts / 16.0)));
     const double end = step.from.state.t + step.h * i / parts;
-    const Guard depth_now = depth(end), inside_now = inside(end);
+    const auto [depth_now, inside_now] = look(end);
     std::optional<double> overlaps, enters;
     if (!(depth_before.value > 0)) overlaps = rise(depth, begin, depth_before, end, depth_now);
     if (!(inside_before.value > 0)) enters = rise(inside, begin, inside_before, end, inside_now);
@@ -240,10 +243,9 @@ void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<co
   for (int c = 0; c < contacts(); ++c) {
     if (is_rigid(system_.contacts[at(c)]) && log_.touching(c) && !time_stepping())
       most_pressed_ = std::max(most_pressed_, std::abs(step.to.state.friction[at(c)].load));
-  }
-  for (int c = 0; c < contacts(); ++c)
     if (double& latched = step.to.state.impact_rate[at(c)]; system_.contacts[at(c)].follows && latched > 0 && to[at(c)].value > 0)
       latched = std::max(latched, fastest(system_, c, step, from[at(c)], to[at(c)], motion));
+  }
 }
 
 EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
@@ -256,8 +258,8 @@ EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {
   if (inside && now.value > deepest_valid * contact_size(pair, system_.length))
     return {.failure = name(event) + ": the bodies meet from behind a surface or round the end of its path, at a depth of " +
                        number_text(now.value, 3) +
-                       " m, and a force of this depth would begin at once; close the "
-                       "path (closed: true), lengthen it, or keep the bodies in front of it"};
+                       " m, and a force of this depth would begin at once; close the path (closed: true), "
+                       "lengthen it, or keep the bodies in front of it"};
   if (onset)
     begin(event, step, inside ? std::max(now.rate, latched_at(system_, pair, now.value)) : now.rate);
   else
@@ -387,13 +389,7 @@ double ContactEvents::onset_step(int contact, double v, double t) const {
   return std::max(part * depth_reached(pair.normal, lightness(system_, pair), v) / v, clock * std::abs(t));
 }
 
-void ContactEvents::save(Writer& out) const {
-  out.whole(log_);
-  out.whole(most_pressed_);
-}
-void ContactEvents::load(Reader& in) {
-  in.whole(log_);
-  in.whole(most_pressed_);
-}
+void ContactEvents::save(Writer& out) const { out.whole(log_), out.whole(most_pressed_); }
+void ContactEvents::load(Reader& in) { in.whole(log_), in.whole(most_pressed_); }
 
 }  // namespace pintle
