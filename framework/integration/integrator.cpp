@@ -97,8 +97,7 @@ bool Integrator::advance(double until) {
   if (!events_.count(step_, event, motion(), wish)) return stop(events_.again_and_again(), step_.to.state.t);
   if (event && !act_on(*event, wish)) return false;
   stepper_->accept(eq_);
-  look_at_end();
-  return failure_.empty() && (event || switch_method());
+  return look_at_end() && (event || switch_method());
 }
 
 bool Integrator::act_at_end() {
@@ -111,8 +110,7 @@ bool Integrator::act_at_end() {
   if (!events_.count(step_, event, motion(), control_.wish())) return stop(events_.again_and_again(), step_.to.state.t);
   if (!act_on(*event, control_.wish())) return false;
   stepper_->accept(eq_);
-  look_at_end();
-  return failure_.empty();
+  return look_at_end();
 }
 
 double Integrator::kink_ahead(double wish) const {
@@ -270,22 +268,21 @@ bool Integrator::change(const std::function<void(State&)>& act) {
   step_.ends_at_event = true;
   step_.dy_before = step_.to.dy;
   if (!stepper_->project(step_.to, eq_)) return stop("singular configuration where its state was changed", step_.to.state.t);
-  look_at_end();
-  return failure_.empty();
+  return look_at_end();
 }
 
 void Integrator::hold_laws() {
   if (laws_) eq_.law_sides = laws_->sides();
 }
 
-void Integrator::look_at_end() {
+bool Integrator::look_at_end() {
   const auto& y = step_.to.state.y;
   near_singular_ = stepper_->near_singular(eq_);
   norm_.see(y);
   worst_position_ = worse(worst_position_, position_violation(system_, eq_));
   worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
-  if (const std::string why = deep_overlap(system_, step_.to.state, stepper_->traits().fixed_step); !why.empty())
-    stop(why, step_.to.state.t);
+  const std::string impossible = deep_overlap(system_, step_.to.state, stepper_->traits().fixed_step);
+  return impossible.empty() || stop(impossible, step_.to.state.t);
 }
 
 long Integrator::cost() const { return cost_of(eq_, implicit()); }

@@ -80,7 +80,8 @@ class Integrator {
   bool end_at_first_event(std::optional<EventInStep>&);
   bool act_on(const EventInStep&, double wish);
   void hold_laws();
-  void look_at_end();
+  /// @returns false, with a reason, if the state is impossible
+  bool look_at_end();
   bool switch_method();
   bool go_back();
   bool take(std::string_view method, Instant&);

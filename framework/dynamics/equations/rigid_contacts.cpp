@@ -44,17 +44,16 @@ void close_for_impact(const System& system, std::span<const int> touching, State
 
 // Whether no gap closes further after impulses x. Bodies that a driver presses together cannot be stopped; impulses are found nevertheless
 // if the direction of forces that press them has no effect on the motion and is left out.
-bool stop_all(const System& system, const Closed& closed, const VectorXd& after, const VectorXd& terms) {
-  constexpr double closing = 1e-3;  // a direction that is left out, as of wedged bodies, leaves 1e-5 of the fastest body's speed
-  const double allowed = closing * largest(terms);
+bool stop_all(const System& system, const Closed& closed, const VectorXd& after, double fastest) {
+  constexpr double closing = 1e-3;  // a direction that is left out, as of wedged bodies, leaves 1e-5 of that speed
   for (std::size_t i = 0; i < closed.contact.size(); ++i)
-    if (!(after[closed.unknowns[i].normal] >= -allowed - system.contacts[at(closed.contact[i])].slowest_impact)) return false;
+    if (!(-after[closed.unknowns[i].normal] <= closing * fastest + system.contacts[at(closed.contact[i])].slowest_impact)) return false;
   return true;
 }
 
 // Poisson's law: the impulse of expansion is e times that of compression, or more where a gap would close.
 std::optional<VectorXd> poisson(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W, const VectorXd& v,
-                                const VectorXd& terms) {
+                                double fastest) {
   const auto compression = unilateral_forces(closed.unknowns, W, v);
   if (!compression) return std::nullopt;
   std::vector<UnilateralContact> expanding = closed.unknowns;
@@ -66,7 +65,7 @@ std::optional<VectorXd> poisson(const System& system, const Closed& closed, std:
   const auto more = unilateral_forces(expanding, W, v + W * (*compression + given));
   if (!more) return std::nullopt;
   const VectorXd x = *compression + given + *more;
-  return stop_all(system, closed, v + W * x, terms) ? std::optional(x) : std::nullopt;
+  return stop_all(system, closed, v + W * x, fastest) ? std::optional(x) : std::nullopt;
 }
 
 // Effective restitution of a contact: 0 if the separation speed or the opening would be too small to resolve.
@@ -148,8 +147,10 @@ Closed closed_contacts(const System& system, const State& state, const Equations
   return out;
 }
 
+double fastest_there(const Equations& eq, const VectorXd& speeds) { return largest(eq.sticking.J.cwiseAbs().transpose() * speeds); }
+
 std::optional<VectorXd> newton_impulses(const System& system, const Closed& closed, std::span<const double> e, const MatrixXd& W,
-                                        const VectorXd& before, const VectorXd& free, const VectorXd& terms) {
+                                        const VectorXd& before, const VectorXd& free, double fastest) {
   constexpr double rounding = 1e-10;  // relative to the approach speeds
   const double still = rounding * largest(before) + largest(free - before);
   VectorXd c = free;
@@ -162,7 +163,7 @@ std::optional<VectorXd> newton_impulses(const System& system, const Closed& clos
     if (std::abs(before[k.tangent]) > still) slipping.push_back(k.tangent);
   }
   auto x = contact_forces(closed.unknowns, W, c, slipping);
-  if (x && !stop_all(system, closed, free + W * *x, terms)) x.reset();
+  if (x && !stop_all(system, closed, free + W * *x, fastest)) x.reset();
   return x;
 }
 
@@ -191,7 +192,8 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
   const VectorXd acceleration = sticking_accelerations(system, eq);
   const MatrixXd W = respond_to_sticking(system, eq);
   auto speeds = state.y.segment(system.n(), system.n());
-  const VectorXd before = eq.sticking.J.transpose() * speeds, terms = eq.sticking.J.cwiseAbs().transpose() * speeds.cwiseAbs();
+  const VectorXd before = eq.sticking.J.transpose() * speeds;
+  const double fastest = fastest_there(eq, speeds.cwiseAbs());
 
   std::vector<Bounce> bounce;
   std::vector<double> e;
@@ -205,10 +207,10 @@ std::optional<std::vector<Blow>> strike(const System& system, std::span<const in
   }
   if (by_poisson && std::ranges::any_of(e, [](double each) { return each > 0; }))  // contacts that were closed return their impulse too
     for (std::size_t i = 0; i < e.size(); ++i) e[i] = system.contacts[at(closed.contact[i])].rigid->restitution;
-  auto x = by_poisson ? poisson(system, closed, e, W, before, terms) : newton_impulses(system, closed, e, W, before, before, terms);
+  auto x = by_poisson ? poisson(system, closed, e, W, before, fastest) : newton_impulses(system, closed, e, W, before, before, fastest);
   if (!x) {  // bodies wedged between others cannot all separate with restitution e
     std::ranges::fill(e, 0.0);
-    x = newton_impulses(system, closed, e, W, before, before, terms);
+    x = newton_impulses(system, closed, e, W, before, before, fastest);
   }
   if (!x) return std::nullopt;
   const std::vector<bool> parts = parting({system, closed, W, before, acceleration}, e, rounding * largest(before), *x);

@@ -17,13 +17,18 @@ struct Closed {
   std::vector<int> contact;
 };
 Closed closed_contacts(const System&, const State&, const Equations&);
+/// Cause and remedy where nothing keeps rigid bodies apart.
+inline constexpr const char* pressed_together =
+    "a driver may press them together, or they are wedged between others; leave a clearance, or give the contact a law with a stiffness";
+/// The fastest speed of bodies at the contacts in eq.sticking, at which approaching speeds do not cancel. @param speeds  their magnitudes
+double fastest_there(const Equations&, const Eigen::VectorXd& speeds);
 /// Impulses by Newton's law of restitution: a gap that closed at speed −v⁻ opens at −e v⁻ or more; a slip that friction stops continues at
 /// −e_T times its speed. Unknowns are the columns of W.
 /// @param e  effective restitution of each contact   @param before, free  v⁻, and the speeds without impulses
-/// @param terms  |J|ᵀ|s|: the speeds of the bodies there, without cancellation
+/// @param fastest  speed of the bodies that meet [m/s]: if a gap closes further by more than a thousandth of it, nothing stops them
 /// @returns nothing if none are found that stop all bodies
 std::optional<Eigen::VectorXd> newton_impulses(const System&, const Closed&, std::span<const double> e, const Eigen::MatrixXd& W,
-                                               const Eigen::VectorXd& before, const Eigen::VectorXd& free, const Eigen::VectorXd& terms);
+                                               const Eigen::VectorXd& before, const Eigen::VectorXd& free, double fastest);
 /// Records the energy that impulses x remove from the motion, computed with the mean of the speeds before and after.
 void book_impulses(const System&, const Closed&, const Eigen::VectorXd& x, const Eigen::VectorXd& mean, State&);
 /// Records the energy that drivers put in by impulses of the joints.

@@ -143,13 +143,16 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
   if (leaving(event) >= 0 || !system_.contacts[at(event)].profiles || log_.touching(event)) return std::nullopt;
   const auto [parts, reach] = to_examine(system_, event, step);
   if (parts == 0) return std::nullopt;
-  const auto look = [&](double t) {
-    const State& now = motion.at(t);
+  const auto inside_of = [&](const State& now) {
     const Margin m = margin_of(system_, event, now);
-    return std::pair(gap_of(system_, event, now), Guard{m.value, m.rate});
+    return Guard{m.value, m.rate};
   };
   const auto depth = [&](double t) { return gap_of(system_, event, motion.at(t)); };
-  const auto inside = [&](double t) { return look(t).second; };
+  const auto inside = [&](double t) { return inside_of(motion.at(t)); };
+  const auto look = [&](double t) {
+    const State& now = motion.at(t);
+    return std::pair(gap_of(system_, event, now), inside_of(now));
+  };
   double begin = step.from.state.t + 1e-9 * step.h;
   auto [depth_before, inside_before] = look(begin);
   const double clear = watch(event).zero;
@@ -289,10 +292,7 @@ EventOutcome ContactEvents::strike(std::vector<int> touching, Step& step) {
     if (is_rigid(system_.contacts[at(c)]) && std::ranges::find(touching, c) == touching.end() && touches(c, state)) touching.push_back(c);
   State after = state;
   const std::optional<std::vector<Blow>> blows = pintle::strike(system_, touching, after, *eq_);
-  if (!blows)
-    return {.failure = name(touching.front()) +
-                       ": no impulses can stop these bodies: a driver presses them together, or they are wedged between others; leave a "
-                       "clearance, or give the contact a law with a stiffness"};
+  if (!blows) return {.failure = name(touching.front()) + ": no impulses can stop the bodies that meet here; " + pressed_together};
   for (const Blow& blow : *blows)
     if (!log_.touching(blow.contact) && (blow.impulse > 0 || blow.separation == 0))
       log_.begin(blow.contact, state, gap_of(system_, blow.contact, state), state.t, std::max(0.0, blow.approach));

@@ -12,8 +12,7 @@ std::string deep_overlap(const System& system, const State& state, double h) {
     const double depth = gap_of(system, static_cast<int>(c), state).value;
     if (!(depth > fine_length(pair, system.length) + h * state.impact_rate[c])) continue;
     return "contact \"" + system.contact_names[c] + "\": rigid bodies overlap by " + number_text(depth, 3) +
-           " m, and no forces part them; a driver may press them together, or they are wedged between others; leave a clearance, " +
-           (h > 0 ? "use a shorter step, " : "") + "or give the contact a law with a stiffness";
+           " m, and no forces part them; " + (h > 0 ? "the step may be too long, " : "") + pressed_together;
   }
   return "";
 }

@@ -101,8 +101,7 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
   const auto& J = eq.sticking.J;
   const VectorXd turning = h / 2 * (sticking_accelerations(system_, eq) - J.transpose() * eq.a);
   const VectorXd before = J.transpose() * from.y.segment(system_.n(), system_.n()) - turning, free = J.transpose() * speeds + turning;
-  const VectorXd terms =
-      J.cwiseAbs().transpose() * (speeds.cwiseAbs() + from.y.segment(system_.n(), system_.n()).cwiseAbs()) + 2 * turning.cwiseAbs();
+  const double fastest = fastest_there(eq, speeds.cwiseAbs() + from.y.segment(system_.n(), system_.n()).cwiseAbs());
   VectorXd meeting = before, closing = free;
   for (std::size_t i = 0; i < closed.unknowns.size(); ++i) {
     const auto c = at(closed.contact[i]);
@@ -113,14 +112,14 @@ bool MoreauJean::put_impulses(double h, const State& from, VectorXd& speeds, Sta
     given_now_[c] = std::clamp(-gap_of(system_, closed.contact[i], from).value / h, -most, most);
     closing[k] += given_now_[c];
   }
-  auto x = newton_impulses(system_, closed, e, W, meeting, closing, terms);
+  auto x = newton_impulses(system_, closed, e, W, meeting, closing, fastest);
   if (!x) {  // bodies wedged between others cannot all separate with restitution e
     std::ranges::fill(e, 0.0);
-    x = newton_impulses(system_, closed, e, W, meeting, closing, terms);
+    x = newton_impulses(system_, closed, e, W, meeting, closing, fastest);
   }
   if (!x) {
-    trouble_ = "no impulses can stop the bodies that meet at \"" + system_.contact_names[at(closed.contact.front())] +
-               "\": a driver or too many contacts may press them together; give contacts a law with a stiffness";
+    trouble_ = "contact \"" + system_.contact_names[at(closed.contact.front())] + "\": no impulses can stop the bodies that meet here; " +
+               pressed_together;
     return false;
   }
   speeds += eq.sticking.a * *x;

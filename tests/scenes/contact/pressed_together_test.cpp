@@ -36,7 +36,7 @@ TEST(PressedTogether, ABlockBetweenADrivenRamAndAWallEndsTheRun) {
       SCOPED_TRACE(method + ", " + laws);
       const Whole w = press(method, laws, 0.2, "1 m/s*t", 1);
       EXPECT_EQ(w.run.status, Status::failed);
-      pintle_test::expect_says(w.run.reason, {"\"", "driver", "law with a stiffness"});
+      pintle_test::expect_says(w.run.reason, {"contact \"", "driver", "law with a stiffness"});
       EXPECT_LE(w.run.t_end, 0.2 + 0.03);
       EXPECT_LE(w.last("ram.x [m]"), 0.8 + 0.03);
     }
@@ -48,7 +48,7 @@ TEST(PressedTogether, SoDoesABlockThatTheRamBeginsToPush) {
     SCOPED_TRACE(method);
     const Whole w = press(method, "restitution: 0", 0, "1 m/s^2*t^2", 1);
     EXPECT_EQ(w.run.status, Status::failed);
-    pintle_test::expect_says(w.run.reason, {"\"", "driver", "law with a stiffness"});
+    pintle_test::expect_says(w.run.reason, {"contact \"", "driver", "law with a stiffness"});
     EXPECT_LE(w.last("ram.x [m]"), 0.8 + 0.03);
   }
 }
