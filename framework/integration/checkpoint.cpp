@@ -62,7 +62,7 @@ void Integrator::load(const std::string& saved) {
     throw std::invalid_argument("it is incomplete, or belongs to another system");
   if (const char* fault = fault_of_loaded()) throw std::invalid_argument(fault);
   step_.error.setZero(system_.n_y());
-  dense_ = step_.to.state;
+  dense_.state = step_.to.state;
   const long evaluations = eq_.evaluations, factorizations = eq_.factorizations;
   hold_laws();
   stepper_->evaluate_end(step_, eq_);

@@ -23,8 +23,9 @@ class HeldForces {
   void look(const System&, const Stepper&, const Step&, State& work);
   void forget() { known_ = false; }
   bool known() const { return known_; }
-  /// Sets the friction of a state at t from parabolas through both ends and the middle.
-  void put(const Step&, double t, std::vector<DryFriction>&) const;
+  const std::vector<DryFriction>& middle() const { return middle_; }
+  /// The k-th friction at t, by parabolas through both ends and the middle.
+  DryFriction at(const Step&, double t, std::size_t k) const;
 
  private:
   std::unique_ptr<Equations> eq_;  ///< created at the first look

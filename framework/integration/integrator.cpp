@@ -69,7 +69,7 @@ Integrator::Integrator(const System& system, const Scheme& scheme, State start)
   step_.dy_before.setZero(system.n_y());
   step_.y_before.setZero(system.n_y());
   step_.from = step_.to;
-  dense_ = step_.to.state;
+  dense_.state = step_.to.state;
   if (!stepper_->project(step_.to, eq_)) {
     stop("the start is a singular configuration or does not satisfy the constraints");
     return;
@@ -195,7 +195,7 @@ void Integrator::look_inside() {
   held_.forget();
   const StepperTraits& traits = stepper_->traits();
   if (traits.implicit || traits.fixed_step > 0 || !holds_anything(system_, step_.from.state)) return;
-  held_.look(system_, *stepper_, step_, dense_);
+  held_.look(system_, *stepper_, step_, dense_.state);
 }
 
 // If dense output of a long step shows an event that true steps do not find, or find after another one, or if a step goes too far past

@@ -109,7 +109,7 @@ class Integrator {
   std::unique_ptr<Equations> sampled_;  ///< created at the first sample
   Step step_;
   HeldForces held_;  ///< used while searching for events
-  State dense_;
+  StateInside dense_;
   Counts counts_;
   std::vector<Happening> happenings_;
   bool row_ = false, save_ = false;

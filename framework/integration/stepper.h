@@ -52,7 +52,7 @@ class Stepper {
   virtual double first_step(const Instant& start, const ErrorNorm&, double left) const = 0;
 
   /// Dense output of an attempted step, not projected onto the constraints.
-  virtual void interpolate(const Step&, double t, State& out) const = 0;
+  virtual void interpolate(const Step&, double t, Eigen::VectorXd& y) const = 0;
   /// The motion at t in the last accepted step, fully evaluated in the given equations, which are not those of the steps. Depends only on
   /// the step and does not affect later ones. @returns false if it cannot be evaluated
   virtual bool sample(const Step&, double t, Equations&, State& out) = 0;
@@ -83,24 +83,29 @@ std::unique_ptr<Stepper> make_stepper(std::string_view name, const System&, cons
 /// Accuracy of holding forces inside a step of this tolerance, relative to the most that can be held.
 inline double known_inside(double tolerance) { return std::max(1e-6, 100 * tolerance); }
 
-/// A step's motion, for code that looks inside it.
+/// A state inside a step, and which of its frictions have forces there.
+struct StateInside {
+  State state;
+  std::vector<std::size_t> loaded;
+};
+
+/// A step's motion, for code that looks inside it. The step must not change meanwhile.
 class DenseOutput {
  public:
-  DenseOutput(const Stepper& stepper, const Step& step, const HeldForces& held, State& work)
+  DenseOutput(const Stepper& stepper, const Step& step, const HeldForces& held, StateInside& work)
       : stepper_(stepper), step_(step), held_(held), work_(work) {}
-  const State& at(double t) const {
-    stepper_.interpolate(step_, t, work_);
-    if (held_.known()) held_.put(step_, t, work_.friction);
-    return work_;
-  }
+  const State& at(double t) const;
   /// Whether forces of sticking friction and closed rigid contacts are known inside the step, not only at its ends.
   bool knows_held_forces() const { return held_.known(); }
 
  private:
+  void begin() const;
+
   const Stepper& stepper_;
   const Step& step_;
   const HeldForces& held_;
-  State& work_;
+  StateInside& work_;
+  mutable bool begun_ = false;
 };
 
 }  // namespace pintle

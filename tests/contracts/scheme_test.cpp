@@ -203,7 +203,7 @@ TEST_P(SchemeContract, DenseOutputHasTheOrderOfItsPolynomials) {
     for (auto* worst : {&q, &s, &z}) worst->push_back(0);
     State dense;
     for (int tenth = 1; tenth < 10; ++tenth) {
-      interpolate_quintic(k.system, step, tenth * span / 10, dense);
+      interpolate_quintic(k.system, step, tenth * span / 10, dense.y);
       const VectorXd truth = k.truth(tenth * span / 10);
       q.back() = std::max(q.back(), std::abs(dense.y[2] - truth[0]));
       s.back() = std::max(s.back(), std::abs(dense.y[5] - truth[1]));
@@ -230,7 +230,8 @@ TEST_P(QuarticInsideSteps, HasFifthOrder) {
     error.push_back(0);
     State dense;
     for (int tenth = 1; tenth < 10; ++tenth) {
-      interpolate_quintic(k.system, step, tenth * span / 10, dense);
+      begin_inside(step, tenth * span / 10, dense);
+      interpolate_quintic(k.system, step, dense.t, dense.y);
       stages.refine_cubics(k.system, step, dense);
       const VectorXd truth = k.truth(tenth * span / 10);
       error.back() = std::max({error.back(), std::abs(dense.y[6] - truth[4]), std::abs(dense.y[7] - truth[5])});
@@ -272,7 +273,7 @@ TEST_P(SchemeContract, DenseOutputMeetsBothEnds) {
   const Step step = march(k, 0.01, 3);
   State dense;
   for (const State* end : {&step.from.state, &step.to.state}) {
-    interpolate_quintic(k.system, step, end->t, dense);
+    interpolate_quintic(k.system, step, end->t, dense.y);
     EXPECT_LT((dense.y - end->y).norm(), 1e-12 * end->y.norm());
   }
 }
@@ -287,7 +288,7 @@ TEST_P(SchemeContract, DenseOutputOfAShortStepManyTurnsOnHasSpeedsBetweenItsEnds
       std::abs(s1 - s0) + step.h * (std::abs(a0) + std::abs(a1)) + 8 * std::numeric_limits<double>::epsilon() * std::abs(s0);
   State dense;
   for (int tenth = 1; tenth < 10; ++tenth) {
-    interpolate_quintic(k.system, step, step.from.state.t + tenth * step.h / 10, dense);
+    interpolate_quintic(k.system, step, step.from.state.t + tenth * step.h / 10, dense.y);
     EXPECT_NEAR(dense.y[5], s0, allowed) << tenth;
   }
 }

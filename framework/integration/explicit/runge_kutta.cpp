@@ -23,7 +23,7 @@ double RungeKutta::first_step(const Instant&, const ErrorNorm&, double) const {
   return h;
 }
 
-void RungeKutta::interpolate(const Step& step, double t, State& out) const { interpolate_quintic(system_, step, t, out); }
+void RungeKutta::interpolate(const Step& step, double t, Eigen::VectorXd& y) const { interpolate_quintic(system_, step, t, y); }
 
 bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
   if (!reading_) {
@@ -43,7 +43,8 @@ bool RungeKutta::sample(const Step& step, double t, Equations& eq, State& out) {
     }
   } else {
     if (inside) {
-      interpolate_quintic(system_, step, t, node.state);
+      begin_inside(step, t, node.state);
+      interpolate_quintic(system_, step, t, node.state.y);
       stages_.refine_cubics(system_, step, node.state);
     } else {
       node.state = step.to.state;

@@ -19,7 +19,7 @@ class RungeKutta final : public Stepper {
   bool attempt(double h, const ErrorNorm&, Step&, Equations&) override;
   void accept(Equations& eq) override { stages_.refresh(system_, eq); }
   double first_step(const Instant&, const ErrorNorm&, double left) const override;
-  void interpolate(const Step&, double t, State& out) const override;
+  void interpolate(const Step&, double t, Eigen::VectorXd& y) const override;
   bool sample(const Step&, double t, Equations&, State& out) override;
   bool passed_near_singular() const override { return stages_.near_singular(); }
   bool near_singular(const Equations&) const override;

@@ -25,7 +25,8 @@ void Alpha::evaluate_between(const System& system, const Step& step, const State
 }
 
 void Alpha::interpolate_between(const System& system, const Step& step, double t, State& out, Equations& eq) {
-  interpolate_cubic(system, step, t, out);
+  begin_inside(step, t, out);
+  interpolate_cubic(system, step, t, out.y);
   const double x = (t - step.from.state.t) / step.h;
   if (factored_ && x > 0 && x < 1) soften_bend(system, step, x, out, eq);
   if (system.n_x() > 0) interpolate_internal(system, step, x, out, eq);

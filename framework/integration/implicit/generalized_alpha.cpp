@@ -33,7 +33,7 @@ double GeneralizedAlpha::first_step(const Instant& start, const ErrorNorm& norm,
   return std::max(std::max(tolerance_, 1e-6) * norm.length() / fastest, 1e-12 * left);
 }
 
-void GeneralizedAlpha::interpolate(const Step& step, double t, State& out) const { interpolate_cubic(system_, step, t, out); }
+void GeneralizedAlpha::interpolate(const Step& step, double t, Eigen::VectorXd& y) const { interpolate_cubic(system_, step, t, y); }
 
 // A true step where possible: stiff spring forces are in balance at its end, but not between nodes.
 bool GeneralizedAlpha::sample(const Step& step, double t, Equations& eq, State& out) {

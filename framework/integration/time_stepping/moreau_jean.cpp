@@ -206,19 +206,14 @@ void MoreauJean::book_loss(State& state, const Equations& eq) const {
 }
 
 // Positions and speeds between the ends of a step are accurate only to first order.
-void MoreauJean::interpolate(const Step& step, double t, State& out) const {
+void MoreauJean::interpolate(const Step& step, double t, VectorXd& y) const {
   const double x = (t - step.from.state.t) / step.h;
-  out.t = t;
-  out.impact_rate = step.to.state.impact_rate;
-  out.friction = step.to.state.friction;
-  out.y = (1 - x) * step.from.state.y + x * step.y_end();
+  y = (1 - x) * step.from.state.y + x * step.y_end();
 }
 
 bool MoreauJean::sample(const Step& step, double t, Equations& eq, State& out) {
-  if (t < step.to.state.t)
-    interpolate(step, t, out);
-  else
-    out = step.to.state;
+  out = step.to.state;
+  if (t < step.to.state.t) out.t = t, interpolate(step, t, out.y);
   if (!pintle::project(system_, out.t, out.y, eq)) return false;
   accelerate(system_, out, eq);
   book_loss(out, eq);
