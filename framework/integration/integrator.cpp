@@ -11,7 +11,6 @@
 #include "framework/common/index.h"
 #include "framework/common/text.h"
 #include "framework/common/worse.h"
-#include "framework/integration/events/deep_overlap.h"
 #include "framework/integration/events/friction_events.h"
 #include "framework/integration/law_changes.h"
 #include "framework/integration/trial.h"
@@ -93,11 +92,12 @@ bool Integrator::advance(double until) {
   if (!events_.empty() && !end_at_first_event(event)) return false;
   end_together(step_.to.state.t, {law, until});
   ++counts_.steps;
-  events_.follow(step_, motion());
+  if (const std::string impossible = events_.follow(step_, motion()); !impossible.empty()) return stop(impossible, step_.to.state.t);
   if (!events_.count(step_, event, motion(), wish)) return stop(events_.again_and_again(), step_.to.state.t);
   if (event && !act_on(*event, wish)) return false;
   stepper_->accept(eq_);
-  return look_at_end() && (event || switch_method());
+  look_at_end();
+  return event || switch_method();
 }
 
 bool Integrator::act_at_end() {
@@ -110,7 +110,8 @@ bool Integrator::act_at_end() {
   if (!events_.count(step_, event, motion(), control_.wish())) return stop(events_.again_and_again(), step_.to.state.t);
   if (!act_on(*event, control_.wish())) return false;
   stepper_->accept(eq_);
-  return look_at_end();
+  look_at_end();
+  return true;
 }
 
 double Integrator::kink_ahead(double wish) const {
@@ -268,21 +269,20 @@ bool Integrator::change(const std::function<void(State&)>& act) {
   step_.ends_at_event = true;
   step_.dy_before = step_.to.dy;
   if (!stepper_->project(step_.to, eq_)) return stop("singular configuration where its state was changed", step_.to.state.t);
-  return look_at_end();
+  look_at_end();
+  return true;
 }
 
 void Integrator::hold_laws() {
   if (laws_) eq_.law_sides = laws_->sides();
 }
 
-bool Integrator::look_at_end() {
+void Integrator::look_at_end() {
   const auto& y = step_.to.state.y;
   near_singular_ = stepper_->near_singular(eq_);
   norm_.see(y);
   worst_position_ = worse(worst_position_, position_violation(system_, eq_));
   worst_velocity_ = worse(worst_velocity_, velocity_violation(system_, y, eq_));
-  const std::string impossible = deep_overlap(system_, step_.to.state, stepper_->traits().fixed_step);
-  return impossible.empty() || stop(impossible, step_.to.state.t);
 }
 
 long Integrator::cost() const { return cost_of(eq_, implicit()); }

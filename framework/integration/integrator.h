@@ -80,8 +80,7 @@ class Integrator {
   bool end_at_first_event(std::optional<EventInStep>&);
   bool act_on(const EventInStep&, double wish);
   void hold_laws();
-  /// @returns false, with a reason, if the state is impossible
-  bool look_at_end();
+  void look_at_end();
   bool switch_method();
   bool go_back();
   bool take(std::string_view method, Instant&);

@@ -8,6 +8,7 @@
 #include "framework/common/archive.h"
 #include "framework/common/text.h"
 #include "framework/dynamics/equations/internal.h"
+#include "framework/integration/events/deep_overlap.h"
 #include "framework/integration/events/roots.h"
 #include "framework/integration/stepper.h"
 
@@ -153,9 +154,10 @@ std::optional<double> ContactEvents::positive_inside(int event, const Step& step
     const State& now = motion.at(t);
     return std::pair(gap_of(system_, event, now), inside_of(now));
   };
-  double begin = step.from.state.t + 1e-9 * step.h;
+  double begin = step.from.state.t;
   auto [depth_before, inside_before] = look(begin);
   const double clear = watch(event).zero;
+  if (!(depth_before.value < -clear)) begin += 1e-9 * step.h, std::tie(depth_before, inside_before) = look(begin);
   for (double part = 2e-9; part * parts < 1 && depth_before.value > -clear && depth_before.rate < 0; part *= 2)  // it has just parted
     begin = step.from.state.t + part * step.h, std::tie(depth_before, inside_before) = look(begin);
   for (int i = 1; i <= parts && begin < until; ++i) {
@@ -240,7 +242,7 @@ double fastest(const System& system, int contact, const Step& step, const Guard&
 
 }  // namespace
 
-void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
+std::string ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput& motion) {
   if (time_stepping()) write_down(step);
   log_.follow(step, from, to, motion);
   for (int c = 0; c < contacts(); ++c) {
@@ -249,6 +251,7 @@ void ContactEvents::follow(Step& step, std::span<const Guard> from, std::span<co
     if (double& latched = step.to.state.impact_rate[at(c)]; system_.contacts[at(c)].follows && latched > 0 && to[at(c)].value > 0)
       latched = std::max(latched, fastest(system_, c, step, from[at(c)], to[at(c)], motion));
   }
+  return deep_overlap(system_, step, from, to, fixed_step_);
 }
 
 EventOutcome ContactEvents::act(int event, Step& step, const Guard& gap) {

@@ -17,7 +17,7 @@ class SingleEvent final : public EventGroup {
   Guard guard(int, const State& state, const Equations&) const override { return event_.guard(state); }
   bool met(int, const Guard& guard) const override { return std::abs(guard.value) <= event_.zero; }
   void start(Step&) override {}
-  void follow(Step&, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) override {}
+  std::string follow(Step&, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) override { return {}; }
   EventOutcome act(int, Step& step, const Guard&) override { return event_.act(step.to.state); }
   void save(Writer&) const override {}
   void load(Reader&) override {}

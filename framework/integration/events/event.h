@@ -103,8 +103,8 @@ class EventGroup {
   /// Called before guards of the step's start are evaluated.
   virtual void begin_step(const State&) {}
   /// Called after each accepted step, before any event that ends it acts. Guards are those of the step's two ends. May change the modes of
-  /// the step's end where forces there stay the same.
-  virtual void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) = 0;
+  /// the step's end where forces there stay the same. @returns why its end is impossible; empty: it is not
+  virtual std::string follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) = 0;
   /// Called at the step's end. May change modes and the state there.
   virtual EventOutcome act(int event, Step&, const Guard&) = 0;
 

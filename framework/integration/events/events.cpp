@@ -233,11 +233,14 @@ Events::Ending Events::bisect(const EventInStep& event, double low, double high,
   }
 }
 
-void Events::follow(Step& step, const DenseOutput& motion) {
+std::string Events::follow(Step& step, const DenseOutput& motion) {
+  std::string impossible;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::size_t size = begin_[g + 1] - begin_[g];
-    groups_[g]->follow(step, {from_.data() + begin_[g], size}, {to_.data() + begin_[g], size}, motion);
+    const std::string why = groups_[g]->follow(step, {from_.data() + begin_[g], size}, {to_.data() + begin_[g], size}, motion);
+    if (impossible.empty()) impossible = why;
   }
+  return impossible;
 }
 
 bool Events::count(const Step& step, const std::optional<EventInStep>& event, const DenseOutput& motion, double wish) {

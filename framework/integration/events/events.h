@@ -45,7 +45,8 @@ class Events {
   /// Evaluates the guards where the step really ended.
   void look_at_end(const Step&, const Equations* evaluated);
 
-  void follow(Step&, const DenseOutput&);
+  /// Called after each accepted step. @returns why its end is impossible; empty: it is not
+  std::string follow(Step&, const DenseOutput&);
   /// Acts at the step's end. @param wish  the step's length without the event [s]
   EventOutcome act(const EventInStep&, Step&, double wish);
   /// The desired step length when the event's group was last in its present mode; 0 if it never was [s].

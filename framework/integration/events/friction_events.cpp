@@ -160,13 +160,14 @@ double expected_speed(const System& system) {
 
 }  // namespace
 
-void FrictionEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard> to, const DenseOutput&) {
+std::string FrictionEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard> to, const DenseOutput&) {
   see_motion(speed_of_motion(system_, step.to.state), fastest_);
   for (int event = 0; event < size(); event += 2)
     if (const double d = step.to.state.friction[place(event)].direction; std::abs(d) == 1 && touches(place(event), step.to.state)) {
       double& fastest = fastest_[static_cast<std::size_t>(event / 2)];
       fastest = std::max(fastest, std::abs(to[static_cast<std::size_t>(event)].value - 2 * still(event)));
     }
+  return {};
 }
 
 void FrictionEvents::save(Writer& out) const { out.whole(fastest_); }

@@ -25,7 +25,7 @@ class FrictionEvents final : public EventGroup {
   std::optional<double> positive_inside(int event, const Step&, const DenseOutput&, double until) const override;
   bool met(int event, const Guard&) const override;
   void start(Step&) override;
-  void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
+  std::string follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
   EventOutcome act(int event, Step&, const Guard&) override;
   void save(Writer&) const override;
   void load(Reader&) override;

@@ -141,7 +141,10 @@ void LawEvents::start(Step& step) {
   see(step.to.state);
 }
 
-void LawEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) { see(step.to.state); }
+std::string LawEvents::follow(Step& step, std::span<const Guard>, std::span<const Guard>, const DenseOutput&) {
+  see(step.to.state);
+  return {};
+}
 
 // All switches at the ends of their sides switch together. If no law jumps, the motion continues unchanged.
 EventOutcome LawEvents::act(int event, Step& step, const Guard&) {

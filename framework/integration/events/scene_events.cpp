@@ -242,13 +242,14 @@ void SceneEvents::begin_step(const State& from) {
 }
 
 // The shift of a guard is removed once it has gone well below zero.
-void SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
+std::string SceneEvents::follow(Step& step, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) {
   see(step.to.state);
   for (int event = 0; event < size(); ++event) {
     for (const Guard& now : {from[at(event)], to[at(event)]}) away_[at(event)] = std::max(away_[at(event)], std::abs(now.value));
     if (waits_[at(event)] == Waits::for_true && shift_[at(event)] != 0 && all_of(event, step.to.state).value < -2 * guard_near)
       shift_[at(event)] = 0;
   }
+  return {};
 }
 
 // Other conditions that fall to the level at which this event acts count as no longer true: they may become true as soon as the motion

@@ -68,7 +68,7 @@ class SceneEvents final : public EventGroup {
   bool hardly_left(int event, const Step&, const DenseOutput&) const override;
   void start(Step&) override;
   void begin_step(const State& from) override;
-  void follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
+  std::string follow(Step&, std::span<const Guard> from, std::span<const Guard> to, const DenseOutput&) override;
   EventOutcome act(int event, Step&, const Guard&) override;
   void save(Writer&) const override;
   void load(Reader&) override;

@@ -92,6 +92,28 @@ TEST_P(LongSteps, ABoxTumblesInAHole) {
   }
 }
 
+// Nothing else moves it, so that its first step is as long as the run: ten powers of ten longer than the time to the impact.
+TEST_P(LongSteps, ABallStrikesAWallRightAfterTheStart) {
+  std::vector<std::string> laws{"normal: {hunt-crossley: {restitution: 0.9, stiffness: 1e9}}"};
+  if (GetParam().words != "generalized-alpha") laws.push_back("model: impact, restitution: 1");
+  for (const std::string& law : laws)
+    for (const double speed : {1.0, 100.0, 1e4})
+      for (const double gap : {1e-10, 1e-8, 1e-6, 1e-4}) {
+        SCOPED_TRACE(law + ", " + number(speed) + " m/s, " + number(gap) + " m");
+        const Whole w =
+            run("ground: {profiles: {wall: {path: [[0.05, -1], [0.05, 1]], material: right}}}\n"
+                "bodies: {ball: {rigid: {mass: 1, inertia: 1e-3}, profiles: {rim: {disc: [0, 0], radius: 0.05}}}}\n"
+                "contacts: {hit: {between: [ball.rim, ground.wall], " +
+                    law + "}}\nstart: {ball: {x: " + number(-gap) + ", vx: " + number(speed) +
+                    "}}\nrun: {until: 1}\noutput: {every: 1, frames: 0}\n",
+                {GetParam().name, GetParam().words, 1e-6, 0});
+        ASSERT_EQ(w.run.status, Status::finished) << w.run.reason;
+        ASSERT_EQ(w.run.impacts.size(), 1u);
+        EXPECT_NEAR(w.last("ball.vx [m/s]"), -speed * (law.starts_with("model") ? 1 : 0.9), 0.02 * speed);
+        EXPECT_NEAR(w.last("ball.x [m]"), w.last("ball.vx [m/s]"), 0.02 * speed);
+      }
+}
+
 // A block with these rounded corners on a table that ends at x = 0, its centre 30 cm before the end.
 std::string block_on_table(const std::string& rounding, const std::string& law, double speed) {
   return "gravity: [0, -9.81]\nbodies:\n  box:\n    rigid: {mass: 1 kg, inertia: 1.7e-3 kg m^2}\n"

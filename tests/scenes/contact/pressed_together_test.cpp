@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/build/build.h"
+#include "framework/integration/events/deep_overlap.h"
+#include "framework/integration/events/impact_log.h"
 #include "tests/refusal.h"
 #include "tests/scenes/contact/rigid_scenes.h"
 
@@ -60,6 +63,35 @@ TEST(PressedTogether, WithRoomItIsPushedAndStopsAtTheWall) {
     expect_sound(w);
     EXPECT_NEAR(w.last("block.x [m]"), 0.9, 1e-3);
   }
+}
+
+// A body that stays behind a wall is no closer to it than its surface says, and must be left alone.
+TEST(PressedTogether, AStepThatPassesAnOpenContactIsImpossible) {
+  const Scene scene = read_scene_text(
+      "ground: {profiles: {wall: {path: [[0, -1], [0, 1]], material: right}}}\n"
+      "bodies: {ball: {rigid: {mass: 1, inertia: 1e-3}, profiles: {rim: {disc: [0, 0], radius: 0.05}}}}\n"
+      "contacts: {hit: {between: [ball.rim, ground.wall], model: impact, restitution: 1}}\nrun: {until: 1}\n",
+      "scene.yaml");
+  const Model model = build(scene);
+  const std::size_t n = model.system.contacts.size();
+  const auto why = [&](double from, double to) {
+    Step step;
+    std::vector<Guard> guards[2];
+    const auto put = [&](double x, State& state, std::vector<Guard>& guard) {
+      state.y.setZero(model.system.n_y());
+      state.y[0] = x;
+      state.impact_rate.resize(n);
+      state.friction.resize(dry_states(model.system));
+      for (std::size_t c = 0; c < n; ++c) guard.push_back(onset_of(model.system, static_cast<int>(c), state));
+    };
+    put(from, step.from.state, guards[0]), put(to, step.to.state, guards[1]);
+    return deep_overlap(model.system, step, guards[0], guards[1], 0);
+  };
+  pintle_test::expect_says(why(-0.06, -0.04), {"contact \"hit\"", "0.01 m"});
+  EXPECT_EQ(why(-0.06, -0.0502), "");
+  EXPECT_EQ(why(-0.06, -0.0499), "");
+  EXPECT_EQ(why(0.2, 0.3), "");
+  EXPECT_EQ(why(0.2, -0.2), "");
 }
 
 }  // namespace
