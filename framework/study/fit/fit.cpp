@@ -12,7 +12,7 @@
 #include "framework/bodies/body_store.h"
 #include "framework/common/file.h"
 #include "framework/common/text.h"
-#include "framework/study/fit/workers.h"
+#include "framework/study/share_out.h"
 #include "framework/study/sweep/study_folder.h"
 
 namespace pintle {
@@ -222,14 +222,12 @@ void search_all(const FitPlan& plan, Evaluations& evaluations, const FitSettings
   const auto poll = [&] { evaluations.poll(); };
   const std::size_t n_first = plan.base.cases.size(), share = plan.share();
   std::vector<Tried> first(n_first);
-  end.workers = share_out(
-      n_first, settings.threads,
-      [&](std::size_t k) {
-        first[k].u = plan.point(k);
-        if (evaluations.stopped()) return;
-        if (const Worth* w = evaluations.at(k + 1, first[k].u)) first[k].worth = *w;
-      },
-      poll);
+  const auto try_first = [&](std::size_t k, int) {
+    first[k].u = plan.point(k);
+    if (evaluations.stopped()) return;
+    if (const Worth* w = evaluations.at(k + 1, first[k].u)) first[k].worth = *w;
+  };
+  end.workers = share_out(n_first, settings.threads, try_first, poll).threads;
   evaluations.take(1, n_first, "first points", end.tried);
   if (evaluations.stopped()) return;
 
@@ -239,7 +237,7 @@ void search_all(const FitPlan& plan, Evaluations& evaluations, const FitSettings
   std::vector<std::size_t> used(starts.size());
   share_out(
       starts.size(), settings.threads,
-      [&](std::size_t s) {
+      [&](std::size_t s, int) {
         if (evaluations.stopped()) return;
         Descent descent(plan, evaluations, 1 + n_first + s * share, share);
         end.ends[s] = descent.go(starts[s], 0.1);
@@ -257,7 +255,7 @@ void search_all(const FitPlan& plan, Evaluations& evaluations, const FitSettings
   const Tried& best = *std::ranges::min_element(found, [](const Tried& a, const Tried& b) { return better(a.worth, b.worth); });
   const std::size_t left = plan.evaluations + 1 - first_left;
   share_out(
-      1, settings.threads, [&](std::size_t) { Descent(plan, evaluations, first_left, left).go(best, 0.02); }, poll);
+      1, settings.threads, [&](std::size_t, int) { Descent(plan, evaluations, first_left, left).go(best, 0.02); }, poll);
   evaluations.take(first_left, left, "last search", end.tried);
 }
 

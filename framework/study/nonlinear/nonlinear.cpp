@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <new>
@@ -14,9 +13,8 @@
 #include "framework/common/file.h"
 #include "framework/common/library_threads.h"
 #include "framework/common/processor_time.h"
+#include "framework/study/share_out.h"
 #include "framework/study/sweep/study_folder.h"
-#include "framework/study/sweep/task_queue.h"
-#include "framework/study/sweep/worker_pool.h"
 
 namespace pintle {
 
@@ -35,10 +33,6 @@ class ChainWorkers {
     for (const std::vector<double>& at : parameter_numbers(study)) x_.push_back(at.empty() ? 0 : at[0]);
     for (Row& row : ended)
       if (!lacked_memory(row)) ended_.emplace(row.number, std::move(row));
-    std::vector<std::size_t> all(chains_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    queue_.add(all);
-    queue_.close();
   }
 
   void work(const SweepSettings& settings, const std::function<void(const Underway&)>& far, SweepEnd& end) {
@@ -47,41 +41,20 @@ class ChainWorkers {
       count(end.count);
       end.count.seconds = seconds_since(begin);
     };
-    const auto report = [&] {
+    report_ = [&] {
       look();
       if (far) far(underway());
-      if (settings.progress && !settings.progress(end.count)) stopped_ = true, queue_.clear();
+      if (settings.progress && !settings.progress(end.count)) stopped_ = true;
     };
-    end.shortage = start(static_cast<int>(std::min(static_cast<std::size_t>(settings.threads), chains_.size())));
-    if (threads_.empty()) {
-      report_ = report;
-      ++running_;
-      draw(0);
-    }
-    while (running_ > 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(seconds_since(begin) < 1 ? 5 : 50));
-      report();
-    }
-    for (std::thread& thread : threads_) thread.join();
+    const auto follow_chain = [&](std::size_t chain, int thread) {
+      hold_library_threads();
+      follow(chains_[chain], thread);
+    };
+    end.shortage = share_out(chains_.size(), settings.threads, follow_chain, report_).shortage;
     look();
-    if (trouble_) std::rethrow_exception(trouble_);
   }
 
  private:
-  /// @returns why fewer threads could be started; empty: all could
-  std::string start(int most) {
-    for (int k = 0; k < most; ++k) {
-      ++running_;
-      try {
-        threads_.emplace_back([this, k] { draw(k); });
-      } catch (const std::exception& error) {
-        --running_;
-        return shortage_of_threads(threads_.size(), most, error.what());
-      }
-    }
-    return {};
-  }
-
   Underway underway() {
     const std::lock_guard lock(mutex_);
     Underway out;
@@ -92,19 +65,6 @@ class ChainWorkers {
   void count(SweepCount& count) {
     const std::lock_guard lock(mutex_);
     count.done = done_, count.trouble = troubled_, count.busy = busy_;
-  }
-
-  void draw(int thread) {
-    try {
-      hold_library_threads();
-      while (const std::optional<std::size_t> chain = queue_.draw()) follow(chains_[*chain], thread);
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      trouble_ = std::current_exception();
-      stopped_ = true;
-      queue_.clear();
-    }
-    --running_;
   }
 
   void follow(const std::vector<std::size_t>& chain, int thread) {
@@ -150,7 +110,7 @@ class ChainWorkers {
     row.number = number;
     const OrbitLimits limits{.seconds = study_.sweep.limits.seconds, .go_on = [&](double share, const std::string& at) {
                                set_progress(number, Far{share, at});
-                               if (report_) report_();
+                               if (std::this_thread::get_id() == caller_) report_();
                                return !stopped_;
                              }};
     try {
@@ -172,17 +132,14 @@ class ChainWorkers {
   const std::vector<std::vector<std::size_t>> chains_;
   std::vector<double> x_;  ///< the parameter of each case
   std::map<std::size_t, Row> ended_;
-  TaskQueue queue_;
   BodyStore bodies_;
-  std::vector<std::thread> threads_;
-  std::function<void()> report_;  ///< called during the computation if there are no other threads
+  std::function<void()> report_;
+  std::thread::id caller_ = std::this_thread::get_id();  ///< reports during the computation if there are no other threads
   std::atomic<bool> stopped_ = false;
-  std::atomic<int> running_ = 0;
   std::mutex mutex_;  ///< protects the members below
   std::size_t done_ = 0, troubled_ = 0;
   std::map<std::size_t, Far> begun_;  ///< by their numbers
   double busy_ = 0;
-  std::exception_ptr trouble_;
 };
 
 void write_results(const Nonlinear& study, const fs::path& folder, const std::vector<Row>& rows) {

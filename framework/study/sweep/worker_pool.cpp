@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <new>
 
+#include "framework/study/share_out.h"
 #include "framework/study/sweep/curves.h"
 
 namespace pintle {
-
-std::string shortage_of_threads(std::size_t started, int asked, const char* why) {
-  return std::to_string(started) + " of " + std::to_string(asked) + " threads could be started (" + why + "), " +
-         (started == 0 ? "the cases are run one by one" : "these run the cases") +
-         "; allow more processes (ulimit -u) or memory, or use fewer threads (--threads)";
-}
 
 WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesystem::path& folder, int rank, int threads)
     : sweep_(sweep), journal_(journal), folder_(folder), rank_(rank) {
@@ -19,7 +14,7 @@ WorkerPool::WorkerPool(const Sweep& sweep, Journal& journal, const std::filesyst
   try {
     start(threads);
   } catch (const std::exception& error) {
-    shortage_ = shortage_of_threads(threads_.size(), threads, error.what());
+    shortage_ = shortage_of_threads(threads_.size(), static_cast<std::size_t>(threads), error.what());
   }
 }
 

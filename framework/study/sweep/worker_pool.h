@@ -16,9 +16,6 @@
 
 namespace pintle {
 
-/// The message that only some of the requested threads could be started, and why.
-std::string shortage_of_threads(std::size_t started, int asked, const char* why);
-
 /// Worker threads of one process that draw cases from a task queue, run them and write them to a journal. If the system cannot start some
 /// of them, the others do the work; if it can start none, the caller does (`work_here`).
 class WorkerPool {
