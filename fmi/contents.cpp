@@ -9,7 +9,7 @@
 
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/scene/error.h"
 
 namespace pintle::fmi {

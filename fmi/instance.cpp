@@ -7,7 +7,7 @@
 #include "framework/build/build.h"
 #include "framework/common/index.h"
 #include "framework/common/text.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle::fmi {
 

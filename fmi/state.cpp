@@ -5,7 +5,7 @@
 
 #include "fmi/instance.h"
 #include "framework/analysis/simulate/identity.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle::fmi {
 

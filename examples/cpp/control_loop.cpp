@@ -4,7 +4,7 @@
 
 #include "framework/analysis/simulate/simulation.h"
 #include "framework/build/build.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/scene/yaml/reader.h"
 
 // `torque` is an input: a state that changes only where the loop sets it.

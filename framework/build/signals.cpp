@@ -4,7 +4,7 @@
 
 #include "framework/common/nearest.h"
 #include "framework/common/text.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/scene/error.h"
 #include "framework/scene/units/sided_formula.h"
 #include "framework/scene/units/signal_law.h"
@@ -33,11 +33,12 @@ int SignalMaker::begin(const Law& law, const Place& place) {
 void SignalMaker::warn_of_swing(const Law& law, const Place& place) {
   const auto* table = law.of_signals.target<SignalTable>();
   const auto* spline = table ? std::get_if<Spline>(&table->table) : nullptr;
-  const std::optional<Swing> swing = spline ? worst_swing(*spline) : std::nullopt;
-  if (!swing) return;
+  const std::optional<Overshoot> overshoot = spline ? worst_overshoot(*spline) : std::nullopt;
+  if (!overshoot) return;
   const std::string where = (place.file.empty() ? scene_.file : place.file) + ":" + std::to_string(place.line) + ": " + place.key;
   model_.warnings.push_back(where + ": the spline of its table " + law.text + " overshoots its samples between " +
-                            number_text(swing->begin, 6) + " and " + number_text(swing->end, 6) + " by " + number_text(swing->by, 3) +
+                            number_text(overshoot->begin, 6) + " and " + number_text(overshoot->end, 6) + " by " +
+                            number_text(overshoot->by, 3) +
                             " (SI units): use interpolation: linear, or more samples where the values turn");
 }
 

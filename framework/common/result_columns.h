@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-/// Names and units of the columns of results, in one place for those who write them (framework/mechanism/trajectory.cpp), for signals
+/// Names and units of the columns of results, in one place for those who write them (framework/mechanism/result_tables.cpp), for signals
 /// (framework/scene/units/signal_words.cpp) and for measures (framework/study/measures/).
 namespace pintle {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/configuration/assemble.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 
@@ -14,7 +14,7 @@ namespace pintle {
 struct Stability {
   bool judged = false;  ///< false: too many coordinates, or see why_not
   std::string why_not = "too many coordinates";
-  int freedoms = 0;                 ///< columns of Z
+  int dofs = 0;                     ///< columns of Z
   int unstable = 0;                 ///< negative eigenvalues: directions in which it moves away
   int neutral = 0;                  ///< eigenvalues that are zero to rounding: directions of neutral equilibrium
   bool circulatory = false;         ///< complex eigenvalues, due to follower loads: it may flutter, which statics cannot decide

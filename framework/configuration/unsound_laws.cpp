@@ -11,7 +11,7 @@
 #include "framework/dynamics/equations/equations.h"
 #include "framework/dynamics/model/joints.h"
 #include "framework/dynamics/model/signal_values.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/scene/units/signal_law.h"
 
 namespace pintle {
@@ -78,7 +78,7 @@ class LawsAt {
     for (const int k : of.in) in.push_back(signal_at(system_, system_.signals[at(k)], now_.y));
     const std::string steep_over = std::isfinite(value) && !grown ? infinite_slope(from, of, in) : "";
     if (std::isfinite(value) && !grown && steep_over.empty()) return;
-    const bool left = !beyond_its_table(of.of, now_.t, in.data(), Outside::refused).empty();
+    const bool left = !beyond_its_table(of.of, now_.t, in.data(), Outside::rejected).empty();
     found = "the " + shown(from) + " of " + quoted(name) + place_of_law(scene_, place) + " " +
             (left                 ? "leaves its table"
              : grown              ? "has reached " + number_text(value)
@@ -104,7 +104,7 @@ class LawsAt {
 }  // namespace
 
 std::string seen_by_law(const Law& law, const SignalFunction& of, double t, const std::vector<double>& in) {
-  const std::string beyond = beyond_its_table(of, t, in.data(), Outside::refused);
+  const std::string beyond = beyond_its_table(of, t, in.data(), Outside::rejected);
   return seen(law, in) + (beyond.empty() ? ": keep it finite, for example with max(…) under a division or a root"
                                          : ": " + beyond + "; lengthen the table, or write outside: hold");
 }
@@ -170,12 +170,12 @@ std::vector<std::string> tables_left(const Scene& scene, const Model& model, con
     std::vector<double> in;
     const auto say = [&](double t, const std::string& when) {
       const std::string held = beyond_its_table(law.of, t, in.data(), Outside::holds_unasked);
-      const std::string refused = beyond_its_table(law.of, t, in.data(), Outside::refused);
-      if (held.empty() && refused.empty()) return false;
+      const std::string rejected = beyond_its_table(law.of, t, in.data(), Outside::rejected);
+      if (held.empty() && rejected.empty()) return false;
       out.push_back(
           "the " + shown(from) + " of " + quoted(name) + place_of_law(scene, place) + " leaves its table " + when + seen(from, in) + ": " +
           (held.empty()
-               ? refused + ", which ends the run there: lengthen the table, or write outside: hold"
+               ? rejected + ", which ends the run there: lengthen the table, or write outside: hold"
                : held + ", and the value at the end of the table is used: lengthen the table, or write outside: hold or outside: refuse"));
       return true;
     };

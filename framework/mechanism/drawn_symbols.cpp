@@ -10,7 +10,7 @@
 
 #include "framework/common/index.h"
 #include "framework/mechanism/profile_contact.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "framework/dynamics/equations/equations.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 

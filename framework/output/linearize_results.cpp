@@ -8,7 +8,7 @@
 #include "framework/common/file.h"
 #include "framework/common/text.h"
 #include "framework/mechanism/drawing.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/scene/yaml/json_text.h"
 
 namespace pintle {

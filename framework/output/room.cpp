@@ -13,7 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/output/results_directory.h"
 
 namespace pintle {

@@ -8,7 +8,7 @@
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/common/file.h"
 #include "framework/integration/events/impact.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 

@@ -8,7 +8,7 @@
 #include "framework/drawing/palette.h"
 #include "framework/mechanism/drawn_symbols.h"
 #include "framework/mechanism/drawn_wheels.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/report/drawn_mesh.h"
 #include "framework/report/page.h"
 

@@ -8,7 +8,8 @@ namespace pintle {
 
 std::span<const JointWord> joint_words() {
   static const JointNumber angle{JointNumber::angle, "angle", &SceneJoint::angle},
-      length{JointNumber::length, "length", &SceneJoint::length, "length: 120 mm"}, ratio{JointNumber::ratio, "ratio", &SceneJoint::ratio};
+      length{JointNumber::length, "length", &SceneJoint::length, "length: 120 mm", true},
+      ratio{JointNumber::ratio, "ratio", &SceneJoint::ratio};
   static const std::vector<JointWord> words{
       {.kind = JointKind::revolute, .word = "revolute", .pins = true, .clearance = true, .friction = true},
       {.kind = JointKind::prismatic,

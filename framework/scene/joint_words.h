@@ -10,10 +10,11 @@ namespace pintle {
 
 /// A number given with a joint's points.
 struct JointNumber {
-  enum Of { angle, length, ratio } of;
+  enum Of { angle, length, ratio } of;  ///< a new kind: `dimension_of` in yaml/reader_joints.cpp
   const char* key;
   double SceneJoint::*value;
   const char* required = nullptr;  ///< example for a message if it is missing: "length: 120 mm"; the number must then be positive
+  bool present = false;            ///< may be `present`, the distance of the two points as the scene is assembled
 };
 
 struct JointWord {

@@ -19,7 +19,7 @@
 #include "framework/integration/integrator.h"
 #include "framework/mechanism/drawing.h"
 #include "framework/mechanism/table.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 

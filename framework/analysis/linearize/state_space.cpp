@@ -4,7 +4,7 @@
 
 #include "framework/common/dense.h"
 #include "framework/common/index.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 

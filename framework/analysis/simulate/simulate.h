@@ -10,7 +10,7 @@
 #include "framework/integration/events/event.h"
 #include "framework/integration/events/impact.h"
 #include "framework/mechanism/drawing.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle {
 

@@ -122,7 +122,7 @@ void add_mass_times(const System&, const Equations&, const Eigen::VectorXd& v, E
 void add_reaction(const Equations&, const Eigen::VectorXd& x, Eigen::VectorXd& out);
 /// ẋ of an owner. After apply_forces.
 const std::array<double, most_internal>& internal_rates(const Equations&, const InternalStates&);
-/// ẏ = [s, a, ẋ, ż] after accelerate.
+/// ẏ = [s, a, ẋ, ż] after accelerate; ż are the powers of the energy ledger, such as the losses of contacts.
 void fill_derivative(const System&, const Eigen::VectorXd& y, const Equations&, Eigen::VectorXd& dy);
 
 /// All of the above in order, without Ċ. @returns false if the accelerations cannot be computed

@@ -20,7 +20,7 @@ struct Gear {
   double phase = 0;           ///< [m]
   auto members() const { return std::tie(a, b, radius_a, radius_b, phase); }
   static constexpr JointProperties properties{
-      .equations = {"teeth"}, .couple = true, .curvature = joint_curvature::of_a_length, .efforts = {".force"}};
+      .equations = {"teeth"}, .couple = true, .curvature = joint_curvature::all_blocks, .efforts = {".force"}};
 };
 /// A pinion b on a rack, the line through a along a's direction u; other joints keep it on the rack.
 ///   C = u·(r_b − r_a) + radius (φ_b − φ_a) − phase    −λ: force on the pinion along u, at the line [N]
@@ -42,7 +42,7 @@ struct RollsOnDisc : Gear {
   static constexpr JointProperties properties{.equations = {"contact", "slip"},
                                               .couple = true,
 
-                                              .curvature = joint_curvature::of_a_length,
+                                              .curvature = joint_curvature::all_blocks,
                                               .efforts = {".normal", ".force"}};
 };
 /// A disc b that rolls without slip on the line through a along a's direction, n = Zu.

@@ -26,7 +26,8 @@ struct JointEnds {
   const int* end() const { return marker.data() + n; }
 };
 
-/// How a joint is drawn at its marker b.
+/// How a joint is drawn at its marker b. A new one needs a case in mechanism/drawing.cpp and report/drawn_model.cpp, and in
+/// app/report/drawing.js.
 enum class JointSymbol { none, pin, guide, pin_in_guide, rod };
 
 /// Properties common to all joints of a kind.
@@ -44,7 +45,7 @@ struct JointProperties {
 };
 
 namespace joint_curvature {
-inline constexpr WrenchPattern along_a_line{{{{true, true}, {true, false}}}}, of_a_length{{{{true, true}, {true, true}}}};
+inline constexpr WrenchPattern along_a_line{{{{true, true}, {true, false}}}}, all_blocks{{{{true, true}, {true, true}}}};
 }
 
 }  // namespace pintle

@@ -51,7 +51,7 @@ struct Distance {
   double length;  ///< > 0 [m]
   auto members() const { return std::tie(a, b, length); }
   static constexpr JointProperties properties{
-      .equations = {"length"}, .angles = false, .symbol = JointSymbol::rod, .curvature = joint_curvature::of_a_length};
+      .equations = {"length"}, .angles = false, .symbol = JointSymbol::rod, .curvature = joint_curvature::all_blocks};
 };
 /// Imposed angle.   C = φ_b − φ_a − law(t)        −λ is the driving torque on b [N m]
 struct AngleDriver {
@@ -65,7 +65,7 @@ struct DistanceDriver {
   int a, b;
   TimeLaw law;  ///< > 0 [m]
   auto members() const { return std::tie(a, b, law); }
-  static constexpr JointProperties properties{.equations = {"length"}, .angles = false, .curvature = joint_curvature::of_a_length};
+  static constexpr JointProperties properties{.equations = {"length"}, .angles = false, .curvature = joint_curvature::all_blocks};
 };
 
 using Joint =

@@ -198,6 +198,15 @@ SceneJointFriction read_joint_friction(const Node& node, const SceneJoint& joint
   return out;
 }
 
+const Dimension& dimension_of(const JointNumber& number) {
+  switch (number.of) {
+    case JointNumber::angle: return dimension::angle;
+    case JointNumber::length: return dimension::length;
+    case JointNumber::ratio: break;
+  }
+  return dimension::number;
+}
+
 SceneJoint read_joint(const Node& node) {
   SceneJoint joint;
   joint.name = checked_name(node);
@@ -209,16 +218,13 @@ SceneJoint read_joint(const Node& node) {
   read_points(node.at(word.word), word, joint);
   for (const JointNumber& number : word.numbers) {
     if (number.required && !node.has(number.key)) node.fail(std::string("lacks a required key; add for example ") + number.required);
-    if (number.of == JointNumber::length && says_present(node.at(number.key))) {
+    if (number.present && says_present(node.at(number.key))) {
       joint.length = read_after_present(node.at(number.key), dimension::length).at(0).value;
       joint.from_present = true;
       if (node.has("clearance")) node.at(number.key).fail("cannot be `present` in a joint with clearance; write the length");
       continue;
     }
-    const Dimension& expected = number.of == JointNumber::angle    ? dimension::angle
-                                : number.of == JointNumber::length ? dimension::length
-                                                                   : dimension::number;
-    read_optional(node, number.key, expected, number.required ? rule::positive : rule::any, joint.*number.value);
+    read_optional(node, number.key, dimension_of(number), number.required ? rule::positive : rule::any, joint.*number.value);
   }
   read_coupling(node, word, joint);
   if (node.has("friction")) joint.friction = read_joint_friction(node.at("friction"), joint, node.has("clearance"));

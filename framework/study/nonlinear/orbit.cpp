@@ -11,7 +11,7 @@
 #include "framework/common/processor_time.h"
 #include "framework/common/text.h"
 #include "framework/configuration/assemble.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/study/nonlinear/attractors.h"
 #include "framework/study/nonlinear/cycle.h"
 #include "framework/study/nonlinear/dimension.h"

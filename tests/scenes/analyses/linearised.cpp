@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/dynamics/equations/equations.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 namespace pintle_scenes {
 

@@ -11,7 +11,7 @@
 #include "framework/analysis/linearize/linearize.h"
 #include "framework/build/build.h"
 #include "framework/configuration/equilibrium.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "framework/scene/units/expression.h"
 #include "framework/scene/units/signal_words.h"
 #include "framework/study/measures/measure.h"

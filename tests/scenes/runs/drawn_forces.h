@@ -14,7 +14,7 @@
 #include "framework/build/build.h"
 #include "framework/configuration/assemble.h"
 #include "framework/mechanism/drawing.h"
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 #include "tests/scenes/mechanisms.h"
 
 namespace pintle_scenes {

@@ -1,4 +1,4 @@
-#include "framework/mechanism/trajectory.h"
+#include "framework/mechanism/result_tables.h"
 
 #include <algorithm>
 #include <array>
