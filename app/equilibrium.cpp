@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 std::string stability_text(const Stability& s) {
   if (!s.judged) return "not determined: " + s.why_not;
-  if (s.freedoms == 0) return "held in every direction by joints and drivers";
+  if (s.dofs == 0) return "held in every direction by joints and drivers";
   const auto bodies = [&](int begin, int count) {
     std::vector<std::string> seen;
     for (int i = begin; i < begin + count; ++i)
@@ -41,7 +41,7 @@ std::string stability_text(const Stability& s) {
     out += (out.empty() ? "" : ", ") + std::string("neutral in ") + counted(static_cast<std::size_t>(s.neutral), "direction") +
            bodies(s.unstable, s.neutral);
   if (out.empty()) out = "stable";
-  out += ", of " + counted(static_cast<std::size_t>(s.freedoms), "degree") + " of freedom";
+  out += ", of " + counted(static_cast<std::size_t>(s.dofs), "degree") + " of freedom";
   return out + (s.circulatory ? "; follower loads may cause flutter, which statics cannot detect" : "");
 }
 

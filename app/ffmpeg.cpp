@@ -80,14 +80,14 @@ bool ffmpeg_is_there() {
 void FilmFile::foresee(const fs::path& file) {
   if (!ffmpeg_is_there()) throw std::runtime_error(no_ffmpeg);
   std::error_code ignored;
-  const auto refuse = [&](int error) {
+  const auto fail = [&](int error) {
     throw std::runtime_error(file.string() + ": cannot be written (" + std::generic_category().message(error) +
                              "); name a film in an existing folder with write permission");
   };
-  if (fs::is_directory(file, ignored)) refuse(EISDIR);
+  if (fs::is_directory(file, ignored)) fail(EISDIR);
   const fs::path part = unique_neighbour(file);
   const int made = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (made < 0) refuse(errno);
+  if (made < 0) fail(errno);
   ::close(made);
   fs::remove(part, ignored);
 }

@@ -1,6 +1,6 @@
 // The slider-crank of the paper with a coupler that bends: one second at 150 rad/s with ideal
 // joints, 0.05 s with a clearance of 0.01 mm at the gudgeon pin. The coupler is a beam of 20 elements with a given number of shapes, or a
-// bar meshed with a given number of freedoms and 8 shapes.
+// bar meshed with a given number of dofs and 8 shapes.
 //   run        until the end; `steps`, `evaluations` and the highest frequency [Hz], which sets the
 //              steps of explicit integration; `build_s`: meshing, modes and assembly, once
 //   evaluate   one evaluation of the equations of motion
@@ -30,9 +30,9 @@ std::string beam(long shapes) {
 }
 
 /// 120 mm × 10 mm of quadrilaterals, twelve times as many along as across; 150, 10 122 and 99 970
-/// freedoms. Held at the middles of its ends.
-std::string bar(long freedoms) {
-  const long across = 2 * std::max(1L, std::lround(std::sqrt(static_cast<double>(freedoms) / 24) / 2));
+/// dofs. Held at the middles of its ends.
+std::string bar(long dofs) {
+  const long across = 2 * std::max(1L, std::lround(std::sqrt(static_cast<double>(dofs) / 24) / 2));
   return "    plate: {thickness: 7.9 mm, young: 207 GPa, poisson: 0.3, mass: 0.21 kg, element: "
          "quadrilateral4,\n"
          "            grid: {corners: [[0, -5 mm], [120 mm, -5 mm], [120 mm, 5 mm], [0, 5 mm]],\n"
@@ -119,15 +119,15 @@ void evaluate(benchmark::State& bench, Coupler coupler, bool clearance) {
 void shapes(benchmark::internal::Benchmark* b) {
   for (const long n : {0, 1, 2, 4, 8, 16}) b->Arg(n);
 }
-void freedoms(benchmark::internal::Benchmark* b) {
+void dofs(benchmark::internal::Benchmark* b) {
   for (const long n : {100, 10000, 100000}) b->Arg(n);
 }
 BENCHMARK_CAPTURE(evaluate, beam, beam, false)->Apply(shapes);
-BENCHMARK_CAPTURE(evaluate, bar, bar, false)->Apply(freedoms);
+BENCHMARK_CAPTURE(evaluate, bar, bar, false)->Apply(dofs);
 BENCHMARK_CAPTURE(run, beam_ideal, beam, false)->Apply(shapes)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run, beam_clearance, beam, true)->Apply(shapes)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, bar_ideal, bar, false)->Apply(freedoms)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run, bar_clearance, bar, true)->Apply(freedoms)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, bar_ideal, bar, false)->Apply(dofs)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, bar_clearance, bar, true)->Apply(dofs)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

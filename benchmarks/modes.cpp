@@ -69,10 +69,10 @@ struct Link {
   Sparse K, M;
   Cost meshing, assembly;
 };
-/// A mesh with about `freedoms` freedoms, ten times as long as it is high.
-Link link_of(double freedoms) {
+/// A mesh with about `dofs` dofs, ten times as long as it is high.
+Link link_of(double dofs) {
   Link link;
-  const int high = static_cast<int>(std::lround(std::sqrt(freedoms / 80)));
+  const int high = static_cast<int>(std::lround(std::sqrt(dofs / 80)));
   const Eigen::Vector2d corners[] = {{0, -0.05}, {1, -0.05}, {1, 0.05}, {0, 0.05}};
   FeModel model;
   link.meshing = cost_of([&] {

@@ -41,7 +41,7 @@ Problem ideal_slider_crank(bool quick) {
   p.text = printed(
       "The paper's rigid slider-crank (Ebrahimi, Salahshoor and Moradi 2017, Table 1), crank free at 150 rad/s from its "
       "dead centre, %g s, gravity. Error: of the crank's angle [rad], or of its speed over 150 rad/s if that is larger, at "
-      "the end. Reference: the one-freedom oracle (tests/oracles/slider_crank_ideal.cpp) at a tolerance of 1e-14; at 1e-13 it "
+      "the end. Reference: the one-degree-of-freedom oracle (tests/oracles/slider_crank_ideal.cpp) at a tolerance of 1e-14; at 1e-13 it "
       "differs by %.0e rad.",
       o.until, std::abs(end.angle - check.angle));
   Start& start = p.starts.emplace_back();
@@ -161,7 +161,7 @@ Problem four_bar(bool quick) {
   p.text = printed(
       "Crank 0.2 m, coupler 0.55 m, rocker 0.4 m on 0.6 m, from rest under a torque of %g N m and gravity, %g s, in which the "
       "crank turns %.1f times. Error: of the crank's angle [rad], or of its speed over %.0f rad/s if that is larger, at the end. "
-      "Reference: the one-freedom equation from the oracle's kinematics and virtual power (tests/oracles/four_bar.cpp) at 1e-14; "
+      "Reference: the one-degree-of-freedom equation from the oracle's kinematics and virtual power (tests/oracles/four_bar.cpp) at 1e-14; "
       "at 1e-13 it differs by %.0e rad. That model is written for clarity: an acceleration takes it two evaluations of the torque.",
       torque, until, (end[0] - 0.6) / (2 * paper::pi), std::abs(end[1]), std::abs(end[0] - check[0]));
   Start& start = p.starts.emplace_back();

@@ -18,7 +18,7 @@ double length(const Matrix2d& x) {
   return L;
 }
 
-/// Body freedoms = turn · element freedoms.
+/// Body dofs = turn · element dofs.
 template <class E>
 Square<E> turn(const Matrix2d& x) {
   const Vector2d t = (x.col(1) - x.col(0)) / length(x);
@@ -27,7 +27,7 @@ Square<E> turn(const Matrix2d& x) {
   return Q;
 }
 
-/// Contribution of each freedom, in element axes, at one point: displacement along and across the axis, rotation of the section, and the
+/// Contribution of each dof, in element axes, at one point: displacement along and across the axis, rotation of the section, and the
 /// slopes of the first two along the axis.
 template <class E>
 struct Field {
@@ -94,7 +94,7 @@ Square<E> integrate(const E& e, const Matrix2d& x, F integrand) {
   return Q * sum * Q.transpose();
 }
 
-/// The three deformation modes, in body freedoms: elongation, relative rotation of the ends, and the distance of the far end from a chord
+/// The three deformation modes, in body dofs: elongation, relative rotation of the ends, and the distance of the far end from a chord
 /// in the direction of the mean rotation.
 template <class E>
 struct Natural {
@@ -144,9 +144,9 @@ Square<E> mass(const E& e, const Coords<E>& x) {
 }
 
 template <LineElement E>
-Freedoms<E> lumped_mass(const E& e, const Coords<E>& x) {
+NodalVector<E> lumped_mass(const E& e, const Coords<E>& x) {
   const double half = length(x) / 2;
-  Freedoms<E> m;
+  NodalVector<E> m;
   for (int i = 0; i < E::dofs; ++i) m[i] = half * (i % E::dofs_per_node < 2 ? e.rhoA : rotary_inertia(e));
   return m;
 }
@@ -166,7 +166,7 @@ ShapeMatrix<E> shape(const E& e, const Coords<E>& x, const Vector2d& xi) {
 }
 
 template <LineElement E>
-Stress<E> stress(const E& e, const Coords<E>& x, const Freedoms<E>& u) {
+Stress<E> stress(const E& e, const Coords<E>& x, const NodalVector<E>& u) {
   const double L = length(x);
   const Natural<E> d = natural<E>(x);
   const Springs k = springs(e, L);
@@ -191,9 +191,9 @@ Eigen::Matrix<double, 1, 6> rotation(const E& e, const Coords<E>& x, double xi) 
 }
 
 template <LineElement E>
-Freedoms<E> line_load(const E&, const Coords<E>& x, const Vector2d& q) {
+NodalVector<E> line_load(const E&, const Coords<E>& x, const Vector2d& q) {
   const double L = length(x);
-  Freedoms<E> f = Freedoms<E>::Zero();
+  NodalVector<E> f = NodalVector<E>::Zero();
   f.template head<2>() = f.template segment<2>(E::dofs_per_node) = q * L / 2;
   if constexpr (BeamElement<E>) {
     const Vector2d t = (x.col(1) - x.col(0)) / L;
@@ -208,31 +208,31 @@ Freedoms<E> line_load(const E&, const Coords<E>& x, const Vector2d& q) {
 
 template Square<Bar> stiffness(const Bar&, const Coords<Bar>&);
 template Square<Bar> mass(const Bar&, const Coords<Bar>&);
-template Freedoms<Bar> lumped_mass(const Bar&, const Coords<Bar>&);
+template NodalVector<Bar> lumped_mass(const Bar&, const Coords<Bar>&);
 template Square<Bar> skew_mass(const Bar&, const Coords<Bar>&);
 template ShapeMatrix<Bar> shape(const Bar&, const Coords<Bar>&, const Vector2d&);
-template Stress<Bar> stress(const Bar&, const Coords<Bar>&, const Freedoms<Bar>&);
+template Stress<Bar> stress(const Bar&, const Coords<Bar>&, const NodalVector<Bar>&);
 template Square<Bar> geometric_stiffness(const Bar&, const Coords<Bar>&, const Stress<Bar>&);
-template Freedoms<Bar> line_load(const Bar&, const Coords<Bar>&, const Vector2d&);
+template NodalVector<Bar> line_load(const Bar&, const Coords<Bar>&, const Vector2d&);
 
 template Square<BeamEuler> stiffness(const BeamEuler&, const Coords<BeamEuler>&);
 template Square<BeamEuler> mass(const BeamEuler&, const Coords<BeamEuler>&);
-template Freedoms<BeamEuler> lumped_mass(const BeamEuler&, const Coords<BeamEuler>&);
+template NodalVector<BeamEuler> lumped_mass(const BeamEuler&, const Coords<BeamEuler>&);
 template Square<BeamEuler> skew_mass(const BeamEuler&, const Coords<BeamEuler>&);
 template ShapeMatrix<BeamEuler> shape(const BeamEuler&, const Coords<BeamEuler>&, const Vector2d&);
-template Stress<BeamEuler> stress(const BeamEuler&, const Coords<BeamEuler>&, const Freedoms<BeamEuler>&);
+template Stress<BeamEuler> stress(const BeamEuler&, const Coords<BeamEuler>&, const NodalVector<BeamEuler>&);
 template Square<BeamEuler> geometric_stiffness(const BeamEuler&, const Coords<BeamEuler>&, const Stress<BeamEuler>&);
-template Freedoms<BeamEuler> line_load(const BeamEuler&, const Coords<BeamEuler>&, const Vector2d&);
+template NodalVector<BeamEuler> line_load(const BeamEuler&, const Coords<BeamEuler>&, const Vector2d&);
 template Eigen::Matrix<double, 1, 6> rotation(const BeamEuler&, const Coords<BeamEuler>&, double);
 
 template Square<BeamTimoshenko> stiffness(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
 template Square<BeamTimoshenko> mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
-template Freedoms<BeamTimoshenko> lumped_mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
+template NodalVector<BeamTimoshenko> lumped_mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
 template Square<BeamTimoshenko> skew_mass(const BeamTimoshenko&, const Coords<BeamTimoshenko>&);
 template ShapeMatrix<BeamTimoshenko> shape(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Vector2d&);
-template Stress<BeamTimoshenko> stress(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Freedoms<BeamTimoshenko>&);
+template Stress<BeamTimoshenko> stress(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const NodalVector<BeamTimoshenko>&);
 template Square<BeamTimoshenko> geometric_stiffness(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Stress<BeamTimoshenko>&);
-template Freedoms<BeamTimoshenko> line_load(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Vector2d&);
+template NodalVector<BeamTimoshenko> line_load(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, const Vector2d&);
 template Eigen::Matrix<double, 1, 6> rotation(const BeamTimoshenko&, const Coords<BeamTimoshenko>&, double);
 
 static_assert(Element<Bar> && Element<BeamEuler> && Element<BeamTimoshenko>);

@@ -8,7 +8,7 @@
 /// small strain. Theory: docs/theory/elements.md.
 namespace pintle {
 
-/// Two-node bar: carries axial force only. Freedoms [u_x u_y] per node, linear interpolation.
+/// Two-node bar: carries axial force only. Degrees of freedom [u_x u_y] per node, linear interpolation.
 struct Bar {
   static constexpr int nodes = 2, dofs_per_node = 2, dofs = 4, points = 2, stress_rows = 3;
   double EA;    ///< axial stiffness [N]
@@ -53,28 +53,28 @@ Square<E> mass(const E&, const Coords<E>&);
 /// Half of the mass, and in beams half of ∫ρI ds, at each node. The rotary inertia of each half of the span is omitted: without it
 /// frequencies converge at fourth order, with it at second.
 template <LineElement E>
-Freedoms<E> lumped_mass(const E&, const Coords<E>&);
+NodalVector<E> lumped_mass(const E&, const Coords<E>&);
 /// G = ∫ ρA NᵀZᵀN ds. The rotation of the sections does not contribute.
 template <LineElement E>
 Square<E> skew_mass(const E&, const Coords<E>&);
 /// ξ.x() ∈ [0, 1] along the axis; ξ.y() is ignored.
 template <LineElement E>
 ShapeMatrix<E> shape(const E&, const Coords<E>&, const Eigen::Vector2d& xi);
-/// [N V M] at both ends, with N and V equal at both, from nodal freedoms alone: the fixed-end forces of a load between the nodes, which
+/// [N V M] at both ends, with N and V equal at both, from nodal dofs alone: the fixed-end forces of a load between the nodes, which
 /// `line_load` applies to the nodes, still have to be subtracted.
 template <LineElement E>
-Stress<E> stress(const E&, const Coords<E>&, const Freedoms<E>&);
+Stress<E> stress(const E&, const Coords<E>&, const NodalVector<E>&);
 /// For N and V, linear between the ends: ½ uᵀK_g u = ∫ ½N w′² − V u′θ ds. So a rigid rotation rotates the end forces: K_g R = Z·(K u) for
 /// the stress of u. M and pure extension do no such work.
 template <LineElement E>
 Square<E> geometric_stiffness(const E&, const Coords<E>&, const Stress<E>&);
 
-/// Rotation of the section at ξ ∈ [0, 1] = row · freedoms.
+/// Rotation of the section at ξ ∈ [0, 1] = row · dofs.
 template <BeamElement E>
 Eigen::Matrix<double, 1, 6> rotation(const E&, const Coords<E>&, double xi);
 
 /// Nodal forces of a uniform force per length q [N/m, body axes], consistent with `shape`.
 template <LineElement E>
-Freedoms<E> line_load(const E&, const Coords<E>&, const Eigen::Vector2d& q);
+NodalVector<E> line_load(const E&, const Coords<E>&, const Eigen::Vector2d& q);
 
 }  // namespace pintle

@@ -85,11 +85,11 @@ Square<E> mass(const E& e, const Coords<E>& x) {
 }
 
 template <PlaneElementType E>
-Freedoms<E> lumped_mass(const E& e, const Coords<E>& x) {
+NodalVector<E> lumped_mass(const E& e, const Coords<E>& x) {
   const auto m = scalar_mass(e, x);
   Eigen::Matrix<double, E::nodes, 1> share = m.rowwise().sum();
   if constexpr (E::nodes > 4) share = m.diagonal() * (m.sum() / m.trace());
-  Freedoms<E> lumped;
+  NodalVector<E> lumped;
   for (int i = 0; i < E::nodes; ++i) lumped[2 * i] = lumped[2 * i + 1] = share[i];
   return lumped;
 }
@@ -130,13 +130,13 @@ template Square<Quadrilateral8> mass(const Quadrilateral8&, const Coords<Quadril
 template Square<Quadrilateral8Reduced> mass(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
 template Square<Quadrilateral9> mass(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
-template Freedoms<Triangle3> lumped_mass(const Triangle3&, const Coords<Triangle3>&);
-template Freedoms<Triangle6> lumped_mass(const Triangle6&, const Coords<Triangle6>&);
-template Freedoms<Quadrilateral4> lumped_mass(const Quadrilateral4&, const Coords<Quadrilateral4>&);
-template Freedoms<Quadrilateral4Plain> lumped_mass(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
-template Freedoms<Quadrilateral8> lumped_mass(const Quadrilateral8&, const Coords<Quadrilateral8>&);
-template Freedoms<Quadrilateral8Reduced> lumped_mass(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
-template Freedoms<Quadrilateral9> lumped_mass(const Quadrilateral9&, const Coords<Quadrilateral9>&);
+template NodalVector<Triangle3> lumped_mass(const Triangle3&, const Coords<Triangle3>&);
+template NodalVector<Triangle6> lumped_mass(const Triangle6&, const Coords<Triangle6>&);
+template NodalVector<Quadrilateral4> lumped_mass(const Quadrilateral4&, const Coords<Quadrilateral4>&);
+template NodalVector<Quadrilateral4Plain> lumped_mass(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&);
+template NodalVector<Quadrilateral8> lumped_mass(const Quadrilateral8&, const Coords<Quadrilateral8>&);
+template NodalVector<Quadrilateral8Reduced> lumped_mass(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&);
+template NodalVector<Quadrilateral9> lumped_mass(const Quadrilateral9&, const Coords<Quadrilateral9>&);
 
 template Square<Triangle3> skew_mass(const Triangle3&, const Coords<Triangle3>&);
 template Square<Triangle6> skew_mass(const Triangle6&, const Coords<Triangle6>&);

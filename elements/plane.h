@@ -3,7 +3,7 @@
 #include "elements/element.h"
 #include "elements/material.h"
 
-/// Plane-stress and plane-strain elements, isoparametric; freedoms [u_x u_y] per node. Nodes are ordered counter-clockwise, corners first,
+/// Plane-stress and plane-strain elements, isoparametric; dofs [u_x u_y] per node. Nodes are ordered counter-clockwise, corners first,
 /// then the middles of the sides 12, 23, …, then the centre, as in VTK and Gmsh. Reference cell: [−1, 1]² with node 1 at (−1, −1), or the
 /// triangle (0, 0) (1, 0) (0, 1). Small strain; material and thickness constant. Theory: docs/theory/plane.md.
 namespace pintle {
@@ -39,7 +39,7 @@ struct PlaneElement {
   /// −η(1 − 3ξ²)) if it is square: rank dofs − 4. Two elements with a common side cannot both have it, so a mesh of two elements has none.
   static constexpr int spurious_modes = kind == PlaneKind::quadrilateral8_reduced ? 1 : 0;
   /// Whether displacement stays accurate in plane strain as ν → ½: to 2 % at ν = 0.4999 with four elements across the wall of a thick
-  /// cylinder. The others have more incompressibility conditions than their freedoms can satisfy: with 3 × 3 points this delays convergence
+  /// cylinder. The others have more incompressibility conditions than their dofs can satisfy: with 3 × 3 points this delays convergence
   /// by one level of refinement; with three and four nodes (without incompatible modes) they lock permanently.
   static constexpr bool near_incompressible =
       kind == PlaneKind::triangle6 || kind == PlaneKind::quadrilateral4 || kind == PlaneKind::quadrilateral8_reduced;
@@ -71,7 +71,7 @@ Square<E> mass(const E&, const Coords<E>& x);
 /// Positive, with exact total mass. Three and four nodes: row sums, which also preserve the mass centre; the others: the consistent
 /// diagonal, scaled [HintonRockZienkiewicz1976].
 template <PlaneElementType E>
-Freedoms<E> lumped_mass(const E&, const Coords<E>& x);
+NodalVector<E> lumped_mass(const E&, const Coords<E>& x);
 /// Skew-symmetric; as exact as `mass`.
 template <PlaneElementType E>
 Square<E> skew_mass(const E&, const Coords<E>& x);
@@ -80,7 +80,7 @@ template <PlaneElementType E>
 ShapeMatrix<E> shape(const E&, const Coords<E>& x, const Eigen::Vector2d& xi);
 /// [σx σy τxy σz] at the integration points [Pa], including the strain of the incompatible modes.
 template <PlaneElementType E>
-Stress<E> stress(const E&, const Coords<E>& x, const Freedoms<E>& u);
+Stress<E> stress(const E&, const Coords<E>& x, const NodalVector<E>& u);
 /// For in-plane s: ½uᵀK_g u = t ∫ s : ½(HᵀH − ε²) dA, H = ∇u, ε = sym H; without σz and incompatible modes.
 template <PlaneElementType E>
 Square<E> geometric_stiffness(const E&, const Coords<E>& x, const Stress<E>& s);

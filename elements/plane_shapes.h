@@ -223,7 +223,7 @@ PointGradients<E> point_gradients(const Coords<E>& x) {
   return out;
 }
 
-/// Amplitudes [u_x u_y] of the two incompatible modes per nodal freedom, with no force acting on them.
+/// Amplitudes [u_x u_y] of the two incompatible modes per nodal dof, with no force acting on them.
 Eigen::Matrix<double, 4, 8> incompatible_amplitudes(const PlaneProperties&, const PointGradients<Quadrilateral4>&);
 
 }  // namespace pintle

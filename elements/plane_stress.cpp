@@ -35,7 +35,7 @@ Eigen::Matrix<double, E::points, E::nodes> extrapolation() {
 }  // namespace
 
 template <PlaneElementType E>
-Stress<E> stress(const E& e, const Coords<E>& x, const Freedoms<E>& u) {
+Stress<E> stress(const E& e, const Coords<E>& x, const NodalVector<E>& u) {
   const PointGradients<E> at = point_gradients<E>(x);
   Eigen::Matrix<double, 2 * functions<E>, 1> all;
   all.template head<E::dofs>() = u;
@@ -59,7 +59,7 @@ Square<E> geometric_stiffness(const E& e, const Coords<E>& x, const Stress<E>& s
   Square<E> half = Square<E>::Zero();
   for (int p = 0; p < E::points; ++p) {
     const double sx = s(0, p), sy = s(1, p), tau = s(2, p);
-    Freedoms<E> rotation, rest;  // ω, and the second factor
+    NodalVector<E> rotation, rest;  // ω, and the second factor
     for (int i = 0; i < E::nodes; ++i) {
       const double dx = at.g[p](i, 0), dy = at.g[p](i, 1);
       rotation.template segment<2>(2 * i) << -dy / 2, dx / 2;
@@ -110,15 +110,15 @@ Eigen::Vector3d principal(const Eigen::Vector4d& s) {
   return {middle + radius, middle - radius, std::atan2(s[2] + 0.0, half) / 2};
 }
 
-template Stress<Triangle3> stress(const Triangle3&, const Coords<Triangle3>&, const Freedoms<Triangle3>&);
-template Stress<Triangle6> stress(const Triangle6&, const Coords<Triangle6>&, const Freedoms<Triangle6>&);
-template Stress<Quadrilateral4> stress(const Quadrilateral4&, const Coords<Quadrilateral4>&, const Freedoms<Quadrilateral4>&);
+template Stress<Triangle3> stress(const Triangle3&, const Coords<Triangle3>&, const NodalVector<Triangle3>&);
+template Stress<Triangle6> stress(const Triangle6&, const Coords<Triangle6>&, const NodalVector<Triangle6>&);
+template Stress<Quadrilateral4> stress(const Quadrilateral4&, const Coords<Quadrilateral4>&, const NodalVector<Quadrilateral4>&);
 template Stress<Quadrilateral4Plain> stress(const Quadrilateral4Plain&, const Coords<Quadrilateral4Plain>&,
-                                            const Freedoms<Quadrilateral4Plain>&);
-template Stress<Quadrilateral8> stress(const Quadrilateral8&, const Coords<Quadrilateral8>&, const Freedoms<Quadrilateral8>&);
+                                            const NodalVector<Quadrilateral4Plain>&);
+template Stress<Quadrilateral8> stress(const Quadrilateral8&, const Coords<Quadrilateral8>&, const NodalVector<Quadrilateral8>&);
 template Stress<Quadrilateral8Reduced> stress(const Quadrilateral8Reduced&, const Coords<Quadrilateral8Reduced>&,
-                                              const Freedoms<Quadrilateral8Reduced>&);
-template Stress<Quadrilateral9> stress(const Quadrilateral9&, const Coords<Quadrilateral9>&, const Freedoms<Quadrilateral9>&);
+                                              const NodalVector<Quadrilateral8Reduced>&);
+template Stress<Quadrilateral9> stress(const Quadrilateral9&, const Coords<Quadrilateral9>&, const NodalVector<Quadrilateral9>&);
 
 template Square<Triangle3> geometric_stiffness(const Triangle3&, const Coords<Triangle3>&, const Stress<Triangle3>&);
 template Square<Triangle6> geometric_stiffness(const Triangle6&, const Coords<Triangle6>&, const Stress<Triangle6>&);

@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// A lump at a node: freedoms [u_x u_y φ]. It has no stiffness. The two blocks correspond to `mass` and `skew_mass` of an element with one
+/// A lump at a node: dofs [u_x u_y φ]. It has no stiffness. The two blocks correspond to `mass` and `skew_mass` of an element with one
 /// node; on a node without rotation, their upper left 2 × 2 is used.
 struct PointMass {
   double m = 0;  ///< [kg]

@@ -26,8 +26,8 @@ Trust& settings() {
 }
 
 void validate_kind(const struct stat& s) {
-  if (S_ISDIR(s.st_mode)) throw FileRefused("is a directory; name a file in it");
-  if (!S_ISREG(s.st_mode)) throw FileRefused("is not an ordinary file; copy its contents to one");
+  if (S_ISDIR(s.st_mode)) throw FileRejected("is a directory; name a file in it");
+  if (!S_ISREG(s.st_mode)) throw FileRejected("is not an ordinary file; copy its contents to one");
 }
 
 /// An open ordinary file.
@@ -37,15 +37,15 @@ class File {
     struct stat s {};
     // Checked by name first: opening a device or a pipe may already have effects.
     if (::stat(path.c_str(), &s) != 0) {
-      if (errno == ENOENT || errno == ENOTDIR) throw FileRefused("there is no such file; check the path");
-      throw FileRefused(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
+      if (errno == ENOENT || errno == ENOTDIR) throw FileRejected("there is no such file; check the path");
+      throw FileRejected(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
     }
     validate_kind(s);
     number_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-    if (number_ < 0) throw FileRefused(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
+    if (number_ < 0) throw FileRejected(std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
     if (::fstat(number_, &s) != 0 || !S_ISREG(s.st_mode)) {
       ::close(number_);
-      throw FileRefused("is not an ordinary file; copy its contents to one");
+      throw FileRejected("is not an ordinary file; copy its contents to one");
     }
     size_ = static_cast<std::uintmax_t>(s.st_size);
   }
@@ -61,7 +61,7 @@ class File {
     while (got < count) {
       const ssize_t n = ::read(number_, text.data() + got, count - got);
       if (n < 0 && errno == EINTR) continue;
-      if (n < 0) throw FileRefused(std::string("cannot be read to its end (") + std::strerror(errno) + ")");
+      if (n < 0) throw FileRejected(std::string("cannot be read to its end (") + std::strerror(errno) + ")");
       if (n == 0) break;
       got += static_cast<std::size_t>(n);
     }
@@ -97,8 +97,8 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
   const File file(path);
   note_file(path);
   if (file.size() > most_bytes)
-    throw FileRefused("has " + std::to_string(file.size() >> 20) + " MB; at most " + std::to_string(most_bytes >> 20) +
-                      " MB are read. Is it the right file?");
+    throw FileRejected("has " + std::to_string(file.size() >> 20) + " MB; at most " + std::to_string(most_bytes >> 20) +
+                       " MB are read. Is it the right file?");
   return file.read(static_cast<std::size_t>(file.size()));
 }
 
@@ -124,12 +124,12 @@ fs::path contained_file(const fs::path& named, const fs::path& beside, const fs:
   std::error_code error;
   fs::path path = beside / named;
   const fs::path real = fs::weakly_canonical(path.is_absolute() ? path : fs::current_path() / path, error);
-  if (error) throw FileRefused("\"" + named.string() + "\": its path cannot be resolved (" + error.message() + "); check it");
+  if (error) throw FileRejected("\"" + named.string() + "\": its path cannot be resolved (" + error.message() + "); check it");
   const std::vector<fs::path> folders = readable_folders(folder);
   if (std::none_of(folders.begin(), folders.end(), [&](const fs::path& f) { return lies_in(real, f); }))
-    throw FileRefused("\"" + named.string() + "\" lies outside the folder of the scene" +
-                      (folders.empty() ? std::string() : ", " + folders[0].string()) + "; copy it there, or allow it with --allow-path " +
-                      real.parent_path().string());
+    throw FileRejected("\"" + named.string() + "\" lies outside the folder of the scene" +
+                       (folders.empty() ? std::string() : ", " + folders[0].string()) + "; copy it there, or allow it with --allow-path " +
+                       real.parent_path().string());
   note_file(path);
   return path;
 }

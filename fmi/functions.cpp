@@ -1,4 +1,4 @@
-// The C interface: the supported functions. Those not supported are in refused.cpp.
+// The C interface: the supported functions. Those not supported are in unsupported.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +42,7 @@ std::unique_ptr<FmuInstance> made(FmuHandle& handle, const char* token, const ch
   FmuContents contents;
   try {
     contents = contents_of(read_file(folder / contents_file, most_bytes));
-  } catch (const FileRefused& why) {
+  } catch (const FileRejected& why) {
     throw FmuError((folder / contents_file).string() + " " + why.what() + "; resourcePath is the folder resources of the unpacked unit");
   }
   if (!token || contents.token != token) throw FmuError("instantiationToken is not that of modelDescription.xml");

@@ -41,7 +41,7 @@ std::string refusal_of(const std::string& opened, const fs::path& file, const Li
     return "there is no such file; check its path, which is relative to the folder of the drawing";
   try {
     contained_file(opened, file.parent_path(), read_from);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     return rejected.what();
   }
   return "it cannot be read; check its permissions";

@@ -73,7 +73,7 @@ void note_named_files(const fs::path& script, const std::string& text, const fs:
       const fs::path file = contained_file((*name)[1].str(), script.parent_path(), folder);
       if (!seen.insert(file).second) continue;
       if (file.extension() == ".geo") note_named_files(file, read_file(file, most_script_bytes), folder, seen);
-    } catch (const FileRefused&) {  // the mesher reports it
+    } catch (const FileRejected&) {  // the mesher reports it
     }
   }
 }
@@ -115,7 +115,7 @@ Mesh read_geometry(const fs::path& path, const MeshOptions& o, double scale, con
     text = all ? read_file(path, kind == ".geo" ? most_script_bytes : most_mesh_bytes) : read_head(path, 4096);
     validate_head(name, kind, text);
     if (kind == ".msh") validate_msh(name, text);
-  } catch (const FileRefused& e) {
+  } catch (const FileRejected& e) {
     throw std::runtime_error(name + ": " + e.what());
   }
   validate_options(name);

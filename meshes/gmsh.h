@@ -32,7 +32,7 @@ Mesh mesh_link(const Link&, const MeshOptions&);
 /// the body (all surfaces if there is none), and its name becomes a group. Closed loops of the outline that no physical curve touches
 /// become "outline" or "hole 1", "hole 2", … ordered by their centres from left to right, then from below.
 /// A .geo file is a program. It may read files in `folder` (the drawing's own if empty), below it and in folders that the user trusts
-/// (files/trust.h), and do nothing else; anything else is refused.
+/// (files/trust.h), and do nothing else; anything else is rejected.
 /// @throws std::runtime_error     the file does not exist, or Gmsh cannot read or mesh it (its message), or would exceed its limits of time
 /// or memory
 /// @throws std::invalid_argument  the file is not of the kind its name says; the geometry is not plane (z = 0) or has no surface, a point

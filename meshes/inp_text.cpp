@@ -33,7 +33,7 @@ struct Reader {
       std::string text = read_file(path, most_bytes - bytes);
       bytes += text.size();
       return text;
-    } catch (const FileRefused& e) {
+    } catch (const FileRejected& e) {
       throw std::runtime_error(path.string() + ": " + e.what());
     }
   }
@@ -70,7 +70,7 @@ struct Reader {
     fs::path path;
     try {
       path = contained_file(*input, beside, folder);
-    } catch (const FileRefused& e) {
+    } catch (const FileRejected& e) {
       out.reject(place, "*INCLUDE of ", e.what());
     }
     if (std::find(open.begin(), open.end(), fs::weakly_canonical(path)) != open.end())

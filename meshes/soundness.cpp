@@ -179,16 +179,16 @@ struct Check {
     std::sort(near.begin(), near.end(), first);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    const auto told = [&](const Hanging& h) {
+    const auto described = [&](const Hanging& h) {
       const SideView& s = rim[index(h.side)];
       return "node " + node(h.node) + " at " + place(at(h.node)) + " lies on the side between nodes " + nodes(s.a, s.b) + " of " +
              cell(s.cell);
     };
     if (!hanging.empty())
-      found.faults.push_back(told(hanging.front()) + " but is not a node of that cell: the side opens under load" + in_all(hanging.size()) +
-                             "; mesh so that cells meet side to side");
+      found.faults.push_back(described(hanging.front()) + " but is not a node of that cell: the side opens under load" +
+                             in_all(hanging.size()) + "; mesh so that cells meet side to side");
     else if (!near.empty())
-      found.warnings_of.push_back(told(near.front()) + ", within a thousandth of its length, but is not joined to it" +
+      found.warnings_of.push_back(described(near.front()) + ", within a thousandth of its length, but is not joined to it" +
                                   in_all(near.size()) + "; if the cells should be joined there, mesh so that they meet side to side");
     slits(pairs);
   }

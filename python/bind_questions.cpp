@@ -100,7 +100,7 @@ void bind_questions(py::module_& m) {
       .def_property_readonly("judged", [](const Rest& r) { return r.found.stability.judged; })
       .def_property_readonly("unstable", [](const Rest& r) { return r.found.stability.unstable; })
       .def_property_readonly("neutral", [](const Rest& r) { return r.found.stability.neutral; })
-      .def_property_readonly("freedoms", [](const Rest& r) { return r.found.stability.freedoms; })
+      .def_property_readonly("freedoms", [](const Rest& r) { return r.found.stability.dofs; })
       .def_property_readonly("info", [](const Rest& r) { return equilibrium_json(r.of->scene, r.of->model, r.found); });
 
   using Small = SmallMotionResult;

@@ -105,10 +105,10 @@ class Block {
 
 /// Calls `tell` with a table's share of the work, which is read twice. @returns the number of its rows; nothing if it was stopped
 std::optional<std::size_t> convert_table(const fs::path& csv, const std::string& group, Hdf5File& out, const ConversionStep& tell) {
-  const auto told = [&](const char* what, std::size_t row, double share) {
+  const auto report = [&](const char* what, std::size_t row, double share) {
     return tell(what + csv.filename().string() + ", row " + std::to_string(row), share);
   };
-  const auto kinds = table_kinds(csv, [&](std::size_t row, double share) { return told("reading ", row, share / 2); });
+  const auto kinds = table_kinds(csv, [&](std::size_t row, double share) { return report("reading ", row, share / 2); });
   if (!kinds) return {};
   CsvReader in(csv);
   if (in.header().size() != kinds->text.size()) in.fail("the table was changed while it was read");
@@ -121,7 +121,7 @@ std::optional<std::size_t> convert_table(const fs::path& csv, const std::string&
     block.add(fields, in);
     if (!block.full()) continue;
     block.write(table);
-    if (!told("writing ", block.end(), (1 + in.share_read()) / 2)) return {};
+    if (!report("writing ", block.end(), (1 + in.share_read()) / 2)) return {};
   }
   block.write(table);
   return kinds->rows;

@@ -94,9 +94,9 @@ struct ViewSession::Assembled {
   }
 
   /// For each degree of freedom, the velocities of all markers on bodies.
-  Json freedoms_json() const {
+  Json dofs_json() const {
     constexpr int most = 12;
-    const Eigen::MatrixXd motions = hand->freedoms(most);
+    const Eigen::MatrixXd motions = hand->dofs(most);
     Json out = Json::array();
     for (Eigen::Index k = 0; k < motions.cols(); ++k) {
       Json arrows = Json::array();
@@ -121,7 +121,7 @@ struct ViewSession::Assembled {
     return {{"title", scene.title},         {"length", model.system.length},
             {"owners", drawn.owners},       {"colours", colours},
             {"lines", lines_json(drawn)},   {"bodies", bodies_json()},
-            {"mobility", hand->mobility()}, {"freedoms", freedoms_json()},
+            {"mobility", hand->mobility()}, {"freedoms", dofs_json()},
             {"drivers", drivers},           {"warnings", warnings_of(model, start)}};
   }
 };

@@ -61,7 +61,7 @@ async function sendDrag() {
 function tell() {
   element("title").textContent = scene.title || scene.file;
   document.title = scene.title || scene.file;
-  element("mobility").textContent = scene.mobility === 0 ? "no freedom" : scene.mobility === 1 ? "1 freedom" : `${scene.mobility} freedoms`;
+  element("mobility").textContent = scene.mobility === 0 ? "no degree of freedom" : scene.mobility === 1 ? "1 degree of freedom" : `${scene.mobility} degrees of freedom`;
   if (freedom >= scene.freedoms.length) freedom = -1;
   element("freedoms").replaceChildren(...scene.freedoms.map((_, k) => {
     const button = document.createElement("button");

@@ -149,7 +149,7 @@ std::optional<std::string> contents(const Scene& scene, const SceneFile& file) {
   try {
     const fs::path path = contained_file(file.path, fs::path(scene.file).parent_path());
     text = read_file(path, most_bytes);
-  } catch (const FileRefused&) {
+  } catch (const FileRejected&) {
     return {};  // meshing it reports the error
   }
   if (text.empty() || looks_beyond(kind_of(file.path), text)) return {};

@@ -87,7 +87,7 @@ std::optional<ReferenceConditions> hold_by(const ElasticBody& e, const std::vect
       if (const double apart = (place(b) - place(a)).norm(); a < b && apart > farthest) farthest = apart, chord.a = a, chord.b = b;
   if (chord.a >= 0) return chord;
   for (const int a : interface)
-    if (e.model.ports[static_cast<std::size_t>(a)].freedom[2] >= 0) return ReferenceConditions{ReferenceConditions::tangent, a};
+    if (e.model.ports[static_cast<std::size_t>(a)].dof[2] >= 0) return ReferenceConditions{ReferenceConditions::tangent, a};
   return {};
 }
 
@@ -98,8 +98,8 @@ MatrixXd rigid_part(const ReducedBody& b, const ReferenceConditions& hold) {
   for (Index p = 0; p < static_cast<Index>(b.e.model.ports.size()); ++p)
     if (p == hold.a || p == hold.b)
       for (Index k = 0; k < 3; ++k)
-        if (const int freedom = b.e.model.ports[static_cast<std::size_t>(p)].freedom[k]; freedom >= 0)
-          B_phi += B.col(freedom) * b.r.modes.ports.row(3 * p + k);
+        if (const int dof = b.e.model.ports[static_cast<std::size_t>(p)].dof[k]; dof >= 0)
+          B_phi += B.col(dof) * b.r.modes.ports.row(3 * p + k);
   return (B * R).fullPivLu().solve(B_phi);
 }
 
@@ -131,8 +131,8 @@ Eigen::Matrix2d left_out(const ReducedBody& b, int port) {
     shapes = free_shapes(b, port);
   } else {
     hold = method == Method::craig_bampton ? hold_by(b.e, b.shaped).value() : b.r.conditions;
-    const int* freedom = b.e.model.ports[static_cast<std::size_t>(port)].freedom;
-    const MatrixXd R = rigid_motions(b.e.model)(std::array<int, 2>{freedom[0], freedom[1]}, Eigen::all);
+    const int* dof = b.e.model.ports[static_cast<std::size_t>(port)].dof;
+    const MatrixXd R = rigid_motions(b.e.model)(std::array<int, 2>{dof[0], dof[1]}, Eigen::all);
     shapes = b.r.modes.ports.middleRows<2>(3 * Index{port}) - R * rigid_part(b, hold);
   }
   const MatrixXd loads = b.loads.middleCols<2>(inertia_loads + 3 * Index{port});
@@ -175,7 +175,7 @@ std::vector<MatrixXd> by_load(const ReducedBody& b) {
   std::vector<Index> used{0, 1, 2, 3};
   for (const int port : b.interface)
     for (Index k = 0; k < 3; ++k)
-      if (b.e.model.ports[static_cast<std::size_t>(port)].freedom[k] >= 0) used.push_back(inertia_loads + 3 * Index{port} + k);
+      if (b.e.model.ports[static_cast<std::size_t>(port)].dof[k] >= 0) used.push_back(inertia_loads + 3 * Index{port} + k);
   std::vector<MatrixXd> F =
       foreshortening_of_response(b.c, lowest_of(b.r.modes, count), b.response.under(b.r.conditions, b.loads(Eigen::all, used)));
   std::vector<MatrixXd> out(static_cast<std::size_t>(b.loads.cols()), MatrixXd::Zero(count, count));

@@ -46,7 +46,7 @@ void validate_soundness(const Mesh& mesh, std::vector<std::string>& warnings) {
   warnings.insert(warnings.end(), s.warnings_of.begin(), s.warnings_of.end());
 }
 
-/// Warns of elements with too few freedoms to bend at constant volume.
+/// Warns of elements with too few dofs to bend at constant volume.
 void validate_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std::string>& warnings) {
   constexpr double nearly = 0.48;
   const auto* solid = std::get_if<Isotropic>(&plate.material.material.elastic);

@@ -37,7 +37,7 @@ Mesh mesh_of(const Scene&, const SceneBody&, std::vector<std::string>& warnings)
 /// @throws SceneError  as mesh_of, and any error in points, holes, material or lumps
 ElasticBody elastic_body(const Scene&, const SceneBody&);
 
-/// The freedoms fixed by one entry of the body's supports.
+/// The dofs fixed by one entry of the body's supports.
 struct NamedSupport {
   std::string at;
   Supports held;
@@ -49,7 +49,7 @@ Supports together(const std::vector<NamedSupport>&);
 
 /// The scene's static case as forces.
 struct BodyLoad {
-  Eigen::VectorXd independent;  ///< on independent freedoms, n
+  Eigen::VectorXd independent;  ///< on independent dofs, n
   Eigen::MatrixXd on_beams;     ///< the part that acts between the nodes of each line element: its share of the nodal
                                 ///< forces [f_x f_y m] at both ends, 6 × elements, body axes; 6 × 0 for plates
 };

@@ -36,7 +36,7 @@ Eigen::MatrixXd loads_on(const ElasticBody& e) {
   loads.col(3) = independent_load(model, e.M * f.x) - c.x() * loads.col(0) - c.y() * loads.col(1);
   for (std::size_t p = 0; p < model.ports.size(); ++p)
     for (Index k = 0; k < 3; ++k)
-      if (const int freedom = model.ports[p].freedom[k]; freedom >= 0) loads(freedom, inertia_loads + 3 * static_cast<Index>(p) + k) = 1;
+      if (const int dof = model.ports[p].dof[k]; dof >= 0) loads(dof, inertia_loads + 3 * static_cast<Index>(p) + k) = 1;
   return loads;
 }
 

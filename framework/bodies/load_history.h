@@ -12,7 +12,7 @@ namespace pintle {
 /// Columns of `loads_on` before those of the ports, 3 each.
 inline constexpr int inertia_loads = 4;
 
-/// The loads that motion and joints can exert on a body, in independent freedoms, n × (4 + 3·ports): M T along x, along y, M R and M x
+/// The loads that motion and joints can exert on a body, in independent dofs, n × (4 + 3·ports): M T along x, along y, M R and M x
 /// about the mass centre, then a unit force along x, along y and a unit couple at each port (zero where it has no rotation).
 Eigen::MatrixXd loads_on(const ElasticBody&);
 

@@ -91,7 +91,7 @@ Marker marker_of(const Scene& scene, const MechanismBody& b, int body, const Poi
   const ScenePoint& point = point_of(scene, *e.scene, port.name, ref.place);
   Marker m{body, port.x - b.centre, ref.point.empty() ? 0 : point.angle};
   if (!b.body.flex) return m;
-  if (turns && port.freedom[2] < 0)
+  if (turns && port.dof[2] < 0)
     throw SceneError(scene.file, ref.place,
                      "\"" + ref.body + "." + port.name + "\" is a point of " + (e.plate() ? "a plate" : "a bar") +
                          ", which has no direction to hold or turn; " +

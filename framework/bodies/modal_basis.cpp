@@ -45,7 +45,7 @@ auto in_modes(const Scene& scene, const SceneModes& modes, Work work) {
 void validate(const Scene& scene, const ElasticBody& e, const ReferenceConditions& conditions) {
   const SceneModes& modes = *e.scene->elastic->modes;
   const Port& a = e.model.ports[static_cast<std::size_t>(conditions.a)];
-  if (conditions.kind == ReferenceConditions::tangent && a.freedom[2] < 0)
+  if (conditions.kind == ReferenceConditions::tangent && a.dof[2] < 0)
     throw SceneError(scene.file, modes.place,
                      "the frame is tangent at " + a.name + ", a point of " + (e.plate() ? "a plate" : "a bar") +
                          ", which has no direction; use " + (e.plate() ? "the centre of a hole, " : "") +

@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-/// Matrices in independent freedoms; G is nodal.
+/// Matrices in independent dofs; G is nodal.
 Component component_of(const ElasticBody&);
 Sparse skew_mass_of(const ElasticBody&);
 /// Index of the named port, without a name the one at the origin; −1: there is none.

@@ -31,7 +31,7 @@ struct Candidates {
   ModalModel modes, fixed;
 };
 
-/// Keep for at most `count` modes: bodies with few freedoms may have fewer.
+/// Keep for at most `count` modes: bodies with few dofs may have fewer.
 template <class Modes>
 ModalModel lowest(const Component& c, Index count, Modes modes) {
   Keep keep{static_cast<int>(count), {}, {}, false};
@@ -70,7 +70,7 @@ class Watched {
     const Index nodes = e.model.x.cols(), step = std::max<Index>(1, nodes / watched_nodes);
     for (Index i = 0; i < nodes; i += step) rows_.push_back(e.model.begin[static_cast<std::size_t>(i)]);
     if (nodes > 1) rows_.push_back(e.model.begin[static_cast<std::size_t>(nodes - 1)]);
-    for (const Port& p : e.model.ports) ports_.push_back({p.freedom[0], p.freedom[1]});
+    for (const Port& p : e.model.ports) ports_.push_back({p.dof[0], p.dof[1]});
   }
   MatrixXd of(const MatrixXd& nodal_field, const MatrixXd& ports) const {
     MatrixXd out(2 * static_cast<Index>(rows_.size()) + ports.rows(), nodal_field.cols());

@@ -16,11 +16,11 @@ std::vector<NamedSupport> supports_of(const Scene& scene, const ElasticBody& e) 
     const Port* port = e.model.port(s.at);
     for (const ScenePoint& p : e.scene->points)
       if (!port && p.hole == s.at) port = e.model.port(p.name);
-    if (port && s.rotation && !(s.x && s.y) && port->freedom[2] < 0)
+    if (port && s.rotation && !(s.x && s.y) && port->dof[2] < 0)
       throw SceneError(scene.file, s.place, "\"" + s.at + "\" is a point of a plate, which has no rotation; hold a hole or an edge");
     Supports& supports = all.emplace_back(NamedSupport{s.at, {}}).held;
     in_body(scene, *e.scene, [&] {
-      if (port) return hold(supports, e.model, *port, s.x, s.y, s.rotation && port->freedom[2] >= 0);
+      if (port) return hold(supports, e.model, *port, s.x, s.y, s.rotation && port->dof[2] >= 0);
       std::vector<std::string> known = group_names(e.mesh);
       for (const Port& p : e.model.ports) known.push_back(p.name);
       const Group* group = e.mesh.group(s.at);
@@ -34,9 +34,9 @@ std::vector<NamedSupport> supports_of(const Scene& scene, const ElasticBody& e) 
 
 Supports together(const std::vector<NamedSupport>& all) {
   Supports out;
-  for (const NamedSupport& s : all) out.freedoms.insert(out.freedoms.end(), s.held.freedoms.begin(), s.held.freedoms.end());
-  std::sort(out.freedoms.begin(), out.freedoms.end());
-  out.freedoms.erase(std::unique(out.freedoms.begin(), out.freedoms.end()), out.freedoms.end());
+  for (const NamedSupport& s : all) out.dofs.insert(out.dofs.end(), s.held.dofs.begin(), s.held.dofs.end());
+  std::sort(out.dofs.begin(), out.dofs.end());
+  out.dofs.erase(std::unique(out.dofs.begin(), out.dofs.end()), out.dofs.end());
   return out;
 }
 
@@ -53,9 +53,9 @@ Eigen::MatrixXd beam_loads(const FeModel& model, const std::function<Vector2d(co
           out = Eigen::MatrixXd::Zero(6, block.size());
           for (int i = 0; i < block.size(); ++i) {
             const Coords<E> x = block.coords(i, model.x);
-            Freedoms<E> a = Freedoms<E>::Zero();
+            NodalVector<E> a = NodalVector<E>::Zero();
             for (int k = 0; k < 2; ++k) a.template segment<2>(k * d) = field(x.col(k));
-            const Freedoms<E> p = mass(block.element(i), x) * a + line_load(block.element(i), x, q);
+            const NodalVector<E> p = mass(block.element(i), x) * a + line_load(block.element(i), x, q);
             for (int k = 0; k < 2; ++k) out.template block<d, 1>(3 * k, i) = p.template segment<d>(k * d);
           }
         }
@@ -93,7 +93,7 @@ BodyLoad loads_of(const Scene& scene, const ElasticBody& e) {
     switch (l.kind) {
       case Kind::force: add_force(direct, *port, v, 0); break;
       case Kind::torque:
-        if (port->freedom[2] < 0)
+        if (port->dof[2] < 0)
           throw SceneError(scene.file, l.place,
                            "\"" + l.at + "\" is a point of a plate and cannot take a torque; load a hole with a coupling");
         add_force(direct, *port, Vector2d::Zero(), l.value);

@@ -234,13 +234,13 @@ double pushed_by_laws_of_time(const Scene& scene, const System& system) {
 /// Rate of a motion without drivers [rad/s]: the largest of that due to the forces, that of the slowest oscillation that lasts through the
 /// run, and 1/(length of the run).
 double undriven_motion(const Scene& scene, const System& system, const RateSpectrum& s, double pushed) {
-  double swing = 0;
+  double ringing = 0;
   for (const RateSpectrum::Part& p : s.parts) {
     const bool rings = p.rate > 0 && p.decay < 2 * p.rate && p.decay * scene.run.until < 2 * std::log(1 / scene.run.tolerance);
-    if (rings) swing = swing > 0 ? std::min(swing, p.rate) : p.rate;
+    if (rings) ringing = ringing > 0 ? std::min(ringing, p.rate) : p.rate;
   }
   const double seen = scene.run.until > 0 ? 1 / scene.run.until : 0;
-  return std::max({seen, swing, pushed, pushed_by_laws_of_time(scene, system)});
+  return std::max({seen, ringing, pushed, pushed_by_laws_of_time(scene, system)});
 }
 
 /// Whether the rate of an own state changes with time while all signals are constant.

@@ -103,8 +103,8 @@ class EventLaws {
     rows_->outputs = model_.outputs;
   }
   /// ": crank.angle > 1 (scene.yaml:9)"
-  std::string told(const SceneEvent& event) const { return told(event, event.guard); }
-  std::string told(const SceneEvent& event, const Law& law) const {
+  std::string described(const SceneEvent& event) const { return described(event, event.guard); }
+  std::string described(const SceneEvent& event, const Law& law) const {
     const Place& place = event.place;
     return ": " + law.text + " (" + (place.file.empty() ? scene_.file : place.file) +
            (place.line > 0 ? ":" + std::to_string(place.line) : "") + ")";
@@ -127,10 +127,11 @@ Inputs inputs_of(const System& system, const SignalLaw& law, const State& state)
 
 // "crank.angle = 1 rad, t = 2 s", of the inputs that `read` gives.
 template <class Read>
-std::function<std::string(const System&, const State&)> seen_by(const Law& law, const std::string& told, const Read& read) {
-  return [read, law, told](const System& system, const State& state) {
+std::function<std::string(const System&, const State&)> seen_by(const Law& law, const std::string& described, const Read& read) {
+  return [read, law, described](const System& system, const State& state) {
     const auto in = read(system, state);
-    return told + seen_by_law(law, law.of_signals, state.t, {in.begin(), in.begin() + static_cast<std::ptrdiff_t>(law.signals.size())});
+    return described +
+           seen_by_law(law, law.of_signals, state.t, {in.begin(), in.begin() + static_cast<std::ptrdiff_t>(law.signals.size())});
   };
 }
 
@@ -138,18 +139,18 @@ SetState setting(const Scene& scene, const SceneEvent& event, const std::string&
   const auto state = std::ranges::find(scene.states, name, &SceneState::name);
   if (state == scene.states.end()) throw SceneError(scene.file, event.place, "there is no state " + quoted(name) + " to set");
   const int index = static_cast<int>(state - scene.states.begin());
-  const std::string told = laws.told(event, value);
+  const std::string described = laws.described(event, value);
   if (laws.names_columns(value)) {
     const RowLaw of = laws.of_a_row(value, event);
     return {name, [index, of](const System& system, const State& seen, State& now) { now.y[own_state(system, index)] = of(seen); },
-            seen_by(value, told, [of](const System&, const State& there) { return of.inputs(there); })};
+            seen_by(value, described, [of](const System&, const State& there) { return of.inputs(there); })};
   }
   const SignalLaw of = laws.of_motion(value, event.place);
   return {name,
           [index, of](const System& system, const State& seen, State& now) {
             now.y[own_state(system, index)] = law_at(system, of, seen.t, seen.y);
           },
-          seen_by(value, told, [of](const System& system, const State& there) { return inputs_of(system, of, there); })};
+          seen_by(value, described, [of](const System& system, const State& there) { return inputs_of(system, of, there); })};
 }
 
 // Pitch of a gear or rack with backlash [m]; 0: unknown, or another joint.
@@ -226,7 +227,7 @@ double rate_of(const System& system, const MotionSignal& signal, const State& st
 }
 
 // A comparison that depends only on t.
-SceneComparison of_time(const Law& law, const Comparison& from, const std::string& told) {
+SceneComparison of_time(const Law& law, const Comparison& from, const std::string& described) {
   return {.difference =
               [at = law.at, size = from.size](const System&, const State& state, const Wanted& wanted) {
                 const Jet now = at(state.t);
@@ -234,7 +235,7 @@ SceneComparison of_time(const Law& law, const Comparison& from, const std::strin
                 return Guard{now.value, now.rate};
               },
           .at_zero = from.at_zero,
-          .seen = [law, told](const System&, const State& state) { return told + seen_by_law(law, {}, state.t, {}); }};
+          .seen = [law, described](const System&, const State& state) { return described + seen_by_law(law, {}, state.t, {}); }};
 }
 
 // Computes further data of a comparison whose inputs have been read.
@@ -265,7 +266,7 @@ SceneComparison of_a_row(const Law& law, const Comparison& from, const SceneEven
                 return Guard{of.function()(state.t, in.data(), nullptr)};
               },
           .at_zero = from.at_zero,
-          .seen = seen_by(law, laws.told(event), [of](const System&, const State& state) { return of.inputs(state); })};
+          .seen = seen_by(law, laws.described(event), [of](const System&, const State& state) { return of.inputs(state); })};
 }
 
 SceneComparison of_motion(const Law& law, const Comparison& from, const SceneEvent& event, const System& built, EventLaws& laws) {
@@ -287,7 +288,7 @@ SceneComparison of_motion(const Law& law, const Comparison& from, const SceneEve
           },
       .at_zero = from.at_zero,
       .of_speeds = std::ranges::any_of(of.in, [&](int k) { return is_speed(built.signals[at(k)].kind); }),
-      .seen = seen_by(law, laws.told(event), read)};
+      .seen = seen_by(law, laws.described(event), read)};
 }
 
 std::vector<SceneComparison> condition_of(const SceneEvent& event, const System& system, EventLaws& laws) {
@@ -302,7 +303,7 @@ std::vector<SceneComparison> condition_of(const SceneEvent& event, const System&
   std::vector<SceneComparison> out;
   for (std::size_t k = 0; k < from.size(); ++k) {
     const Law& law = event.when[k];
-    out.push_back(law.signals.empty()       ? of_time(law, from[k], laws.told(event))
+    out.push_back(law.signals.empty()       ? of_time(law, from[k], laws.described(event))
                   : laws.names_columns(law) ? of_a_row(law, from[k], event, laws)
                                             : of_motion(law, from[k], event, system, laws));
   }

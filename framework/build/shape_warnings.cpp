@@ -74,9 +74,9 @@ std::vector<std::string> stress_warnings(const System& system, const std::vector
                                          const std::vector<std::optional<MechanismBody>>& bodies) {
   std::vector<std::string> out;
   constexpr double rounding = 1e-8;  // relative to the bending stress at the radius of gyration
-  std::set<int> told;
+  std::set<int> reported;
   for (const RecordedStress& s : stresses) {
-    if (!s.probe.beam || !told.insert(s.body).second) continue;
+    if (!s.probe.beam || !reported.insert(s.body).second) continue;
     const MechanismBody& made = *bodies[static_cast<std::size_t>(s.body)];
     double stretch = 0, bend = 0;
     for (Eigen::Index i = 0; i < made.modes.shapes.cols(); ++i) {

@@ -325,9 +325,9 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
                    ? "overdamped flow, then Newton's method (follower loads and loads controlled by signals have no potential)"
                : way.damped() ? "Newton's method, damped towards the overdamped flow"
                               : "Newton's method";
-  constexpr double told = 1e-6;  // checked again: near a singular configuration tiny displacements change the forces strongly
+  constexpr double enough = 1e-6;  // checked again: near a singular configuration tiny displacements change the forces strongly
   const bool was_found = out.found;
-  out.found = out.found && out.residual <= told;
+  out.found = out.found && out.residual <= enough;
   if (was_found && !out.found)
     out.reason =
         "an equilibrium was found next to a singular configuration, where joint forces grow without bound and cannot be determined: " +

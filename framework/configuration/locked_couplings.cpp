@@ -100,14 +100,14 @@ std::vector<std::string> locked_couplings(const System& system, double t, const 
   };
 
   std::vector<std::string> out;
-  std::set<int> told;
+  std::set<int> reported;
   for (const auto& [k, of] : bodies) {
-    if (told.contains(k) || !frees(k, k)) continue;
+    if (reported.contains(k) || !frees(k, k)) continue;
     std::vector<int> train;
     for (const auto& [other, ends] : bodies)
       if (frees(k, other) && frees(other, k)) train.push_back(other);
     if (train.size() < 2) continue;
-    told.insert(train.begin(), train.end());
+    reported.insert(train.begin(), train.end());
     out.push_back(train_text(system, train));
   }
   return out;

@@ -112,7 +112,7 @@ bool MovedByHand::pull(int body, const Vector2d& point, const Vector2d& to) {
 
 int MovedByHand::mobility() const { return system_.n() - row_space(system_, eq_).rank; }
 
-MatrixXd MovedByHand::freedoms(int most) const {
+MatrixXd MovedByHand::dofs(int most) const {
   const Eigen::Index n = system_.n(), wanted = std::min<Eigen::Index>(most, mobility());
   MatrixXd basis(n, 0), out(n, 0);  // the first scaled and orthogonal, the second as returned
   for (int turn = 0; turn < 2 && out.cols() < wanted; ++turn)

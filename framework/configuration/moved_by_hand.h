@@ -16,7 +16,7 @@ class MovedByHand {
 
   const Eigen::VectorXd& coordinates() const { return q_; }
   /// Small motions that the joints allow, one per column, independent and at most `most`; largest entry 1 rad or the mechanism's length.
-  Eigen::MatrixXd freedoms(int most) const;
+  Eigen::MatrixXd dofs(int most) const;
   /// Total number of these motions.
   int mobility() const;
 

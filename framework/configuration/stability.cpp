@@ -43,8 +43,8 @@ Stability stability_of(const System& system, const State& state, const Equations
   if (system.n() > most_dense) return out;
   const MatrixXd Z = open_directions(system, eq);
   out.judged = true;
-  out.freedoms = static_cast<int>(Z.cols());
-  if (out.freedoms == 0) return out;
+  out.dofs = static_cast<int>(Z.cols());
+  if (out.dofs == 0) return out;
   Tangent tangent(system);
   std::vector<double> values(tangent.places().size());
   tangent.evaluate(system, state, eq, VectorXd::Zero(system.n()), lambda, {.q = 1, .s = 0, .a = 0, .x = internal_at_rest}, values);

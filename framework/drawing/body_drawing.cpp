@@ -67,9 +67,9 @@ BodyDrawing::BodyDrawing(const ElasticBody& body) : body_(body) {
                 const int p = (i * stations + s) * across + side;
                 points.col(p) = x.col(0) + xi * d + offset;
                 for (int k = 0; k < E::dofs; ++k) {
-                  const int freedom = model.begin[static_cast<std::size_t>(block.nodes_of(i)[k / E::dofs_per_node])] + k % E::dofs_per_node;
-                  entries.emplace_back(2 * p, freedom, N(0, k) - offset.y() * turn(0, k));
-                  entries.emplace_back(2 * p + 1, freedom, N(1, k) + offset.x() * turn(0, k));
+                  const int dof = model.begin[static_cast<std::size_t>(block.nodes_of(i)[k / E::dofs_per_node])] + k % E::dofs_per_node;
+                  entries.emplace_back(2 * p, dof, N(0, k) - offset.y() * turn(0, k));
+                  entries.emplace_back(2 * p + 1, dof, N(1, k) + offset.x() * turn(0, k));
                 }
               }
               if (s == 0) continue;

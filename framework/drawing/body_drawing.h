@@ -10,7 +10,7 @@ namespace pintle {
 
 /// A body of elements for drawing: a plate as its own mesh, a beam as a ribbon with the height of its sections, with each element divided
 /// into pieces to show its cubic, and points at both edges and on the axis. Displacements and stresses of the drawn points are linear in
-/// the nodal freedoms.
+/// the nodal dofs.
 struct BodyDrawing {
   explicit BodyDrawing(const ElasticBody&);
   Eigen::Matrix2Xd displacement(const Eigen::VectorXd& u) const;  ///< of each point [m]

@@ -84,7 +84,7 @@ namespace {
 /// The node of a port that does not belong to a rim.
 int node_of(const FeModel& model, const Port& port) {
   int node = 0;
-  while (model.independent_of(model.begin[static_cast<std::size_t>(node)]) != port.freedom[0]) ++node;
+  while (model.independent_of(model.begin[static_cast<std::size_t>(node)]) != port.dof[0]) ++node;
   return node;
 }
 

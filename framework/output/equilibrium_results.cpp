@@ -20,7 +20,7 @@ bool is_rate(const std::string& column) {
 
 Json stability_json(const Stability& s) {
   if (!s.judged) return nullptr;
-  return {{"freedoms", s.freedoms},
+  return {{"freedoms", s.dofs},
           {"unstable directions", s.unstable},
           {"neutral directions", s.neutral},
           {"may flutter", s.circulatory},

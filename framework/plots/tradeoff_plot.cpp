@@ -16,7 +16,7 @@ double decades(double x) { return std::log10(std::max(x, 1e-16)); }
 
 std::string tradeoff_svg(const TradeReport& r) {
   Curve all{.label = "settings", .x = {}, .y = {}, .points = true}, front{.label = "front", .x = {}, .y = {}},
-      warning{.label = "told apart down to", .x = {}, .y = {}, .dashed = true};
+      warning{.label = "error resolution", .x = {}, .y = {}, .dashed = true};
   double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY, level = 0;
   for (const TradePoint& p : r.points) {
     if (!p.usable) continue;

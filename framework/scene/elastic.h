@@ -64,7 +64,7 @@ struct ScenePlate {
 
 enum class RimCoupling { none, rigid, average };
 
-/// Which freedoms of a point or group are fixed.
+/// Which dofs of a point or group are fixed.
 struct SceneSupport {
   std::string at;  ///< point, group, hole or edge
   bool x = false, y = false, rotation = false;

@@ -42,7 +42,7 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes, const s
   std::string text;
   try {
     text = read_file(path, most_bytes);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     fail(rejected.what());
   }
   if (const int line = line_not_text(text); line > 0)

@@ -193,7 +193,7 @@ std::vector<Measure> read_curves(const StudyFile& file) {
 
 namespace {
 
-/// The scene with the study's `set`. @throws SceneError  at the entry that the scene refuses
+/// The scene with the study's `set`. @throws SceneError  at the entry that is invalid in the scene
 Scene scene_as_set(const Node& root, const CaseSource& scene) {
   try {
     return common_scene(scene);

@@ -19,7 +19,7 @@ def _threads(threads):
 
 @contextmanager
 def _files(study, out):
-    """The study's file, what to call it, and the folder of its results. A dict is written to a file, whose name is told to nobody; its scene
+    """The study's file, what to call it, and the folder of its results. A dict is written to a file, whose name is not shown; its scene
     is relative to the current folder."""
     with tempfile.TemporaryDirectory() as place:
         folder = str(Path(place) / "out" if out is None else out)
@@ -93,15 +93,15 @@ class NonlinearResult(TextTable):
 class TradeoffResult(TextTable):
     """A row for each setting, the unchanged scene first; `scene` is the scene with the recommended one, None if none is recommended."""
 
-    def __init__(self, text, info, told, file, recommended):
+    def __init__(self, text, info, report, file, recommended):
         super().__init__(text)
         self.info = json.loads(info)
-        self.told = told
+        self.report = report
         self.recommended = self.info["recommended"]
         self.scene = None if recommended is None else Scene(_core.Scene.of_file(file, recommended))
 
     def __repr__(self):
-        return self.told.rstrip()
+        return self.report.rstrip()
 
 
 def sweep(study, out=None, set=None, threads=None):

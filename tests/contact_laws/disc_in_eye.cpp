@@ -69,7 +69,7 @@ struct PressedDisc::Parts {
 };
 
 PressedDisc::~PressedDisc() = default;
-int PressedDisc::freedoms() const { return parts_->disc->model.n() + parts_->eye->model.n(); }
+int PressedDisc::dofs() const { return parts_->disc->model.n() + parts_->eye->model.n(); }
 int PressedDisc::rows() const { return static_cast<int>(parts_->rows.gap.size()); }
 
 PressedDisc::PressedDisc(const DiscInEye& d) : parts_(std::make_unique<Parts>()) {
@@ -77,7 +77,7 @@ PressedDisc::PressedDisc(const DiscInEye& d) : parts_(std::make_unique<Parts>())
   p.disc = half_ring(d, d.core, 1 - d.clearance, true, d.load_in_the_middle);
   p.eye = half_ring(d, 1, d.outer, false, false);
   for (const int node : p.eye->mesh.group("rim")->nodes) hold(p.eye->supports, p.eye->model, node, true, true, false);
-  std::vector<int>& held = p.eye->supports.freedoms;
+  std::vector<int>& held = p.eye->supports.dofs;
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   const auto surface = [](const PressedHalf& half, const char* edge) {

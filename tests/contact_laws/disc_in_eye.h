@@ -34,7 +34,7 @@ class PressedDisc {
   explicit PressedDisc(const DiscInEye&);
   ~PressedDisc();
   Pressed press(double force) const;
-  int freedoms() const;
+  int dofs() const;
   int rows() const;
 
  private:

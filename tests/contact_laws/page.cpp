@@ -68,7 +68,7 @@ std::vector<Case> measured() {
   for (const double c : clearances) {
     const PressedDisc disc({.clearance = c / radius, .finest = finest, .growth = growth});
     for (const double f : loads) out.push_back({c, f, disc.press(f / force_unit)});
-    std::cerr << "clearance " << c << " m: " << disc.freedoms() << " freedoms\n";
+    std::cerr << "clearance " << c << " m: " << disc.dofs() << " degrees of freedom\n";
   }
   return out;
 }
@@ -155,14 +155,15 @@ std::string reference_table() {
 
 std::string refinement_table() {
   std::string out =
-      "| finest side, growth | freedoms | ΔR = 1 mm, 1 N | 0.1 mm, 1 kN | 10 µm, 10 kN | 0.01 µm, 100 kN |\n|---|---|---|---|---|---|\n";
+      "| finest side, growth | degrees of freedom | ΔR = 1 mm, 1 N | 0.1 mm, 1 kN | 10 µm, 10 kN | 0.01 µm, 100 kN "
+      "|\n|---|---|---|---|---|---|\n";
   const double at[][2] = {{1e-3, 1}, {1e-4, 1e3}, {1e-5, 1e4}, {1e-8, 1e5}};
   for (const double part : {2.0, 1.0, 0.5}) {
     out += printed("| %g, %g |", part * finest, part * growth);
     std::string rest;
     for (const auto& [clearance, force] : at) {
       const PressedDisc disc({.clearance = clearance / radius, .finest = part * finest, .growth = part * growth});
-      if (rest.empty()) out += printed(" %d |", disc.freedoms());
+      if (rest.empty()) out += printed(" %d |", disc.dofs());
       const Pressed p = disc.press(force / force_unit);
       rest += printed(" %.6g µm |", p.depth * radius * 1e6);
     }

@@ -99,7 +99,7 @@ Subject subject(const E& e, const Matrix2Xd& place) {
   const Coords<E> x = place;
   Subject s{place, stiffness(e, x), mass(e, x), skew_mass(e, x), lumped_mass(e, x), {}, {}, {}, {}, {}};
   s.shape = [e, x](const Vector2d& xi) -> MatrixXd { return shape(e, x, xi); };
-  s.stress = [e, x](const VectorXd& u) -> MatrixXd { return stress(e, x, Freedoms<E>(u)); };
+  s.stress = [e, x](const VectorXd& u) -> MatrixXd { return stress(e, x, NodalVector<E>(u)); };
   s.geometric_stiffness = [e, x](const MatrixXd& f) -> MatrixXd { return geometric_stiffness(e, x, Stress<E>(f)); };
   if constexpr (E::dofs_per_node == 3) s.rotation = [e, x](double xi) -> RowVectorXd { return rotation(e, x, xi); };
   if constexpr (E::stress_rows == 4) s.points = reference_points(e);

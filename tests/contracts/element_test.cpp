@@ -75,7 +75,7 @@ MatrixXd scaled(const Sample& s, const MatrixXd& A) { return units(s).asDiagonal
 double largest(const MatrixXd& A) { return A.cwiseAbs().maxCoeff(); }
 /// Largest difference of two matrices of an element, relative to the largest entry of the first.
 double apart(const Sample& s, const MatrixXd& A, const MatrixXd& B) { return largest(scaled(s, A - B)) / largest(scaled(s, A)); }
-VectorXd random_freedoms(Draw& draw, const Sample& s) { return s.size * units(s).cwiseProduct(draw.matrix(s.is.dofs(), 1)); }
+VectorXd random_dofs(Draw& draw, const Sample& s) { return s.size * units(s).cwiseProduct(draw.matrix(s.is.dofs(), 1)); }
 
 // ---- stiffness ----
 
@@ -245,7 +245,7 @@ double energy_of(const Sample& s, const MatrixXd& f) {
 
 TEST_P(ElementContract, StrainEnergyIsThatOfTheStress) {
   for (const Sample& s : curved()) {
-    const VectorXd u = random_freedoms(draw_, s);
+    const VectorXd u = random_dofs(draw_, s);
     const double terms = largest(scaled(s, s.here.stiffness)) * s.size * s.size;
     EXPECT_NEAR(u.dot(s.here.stiffness * u) / 2, energy_of(s, s.here.stress(u)), 10 * rounding * terms);
   }
@@ -327,7 +327,7 @@ TEST_P(ElementContract, StretchWithoutRotationHasNothingOfSecondOrder) {
 // under tension, and of any body in balance one that rests wherever it is turned.
 TEST_P(ElementContract, ARigidRotationTurnsTheForcesOfAStressedElement) {
   for (const Sample& s : curved()) {
-    const VectorXd u = random_freedoms(draw_, s);
+    const VectorXd u = random_dofs(draw_, s);
     const MatrixXd K_g = s.here.geometric_stiffness(s.here.stress(u));
     VectorXd turning = turned(s.is, M_PI / 2) * s.here.stiffness * u;
     if (s.is.turns()) turning[2] = turning[5] = 0;
@@ -364,7 +364,7 @@ TEST_P(ElementContract, ItsAnswersTurnWithItAndDoNotSeeTheOrigin) {
     const MatrixXd f = random_stress(draw_, s);
     same(a.geometric_stiffness(f), b.geometric_stiffness(turned_stress(s, f)));
 
-    const VectorXd u = random_freedoms(draw_, s);
+    const VectorXd u = random_dofs(draw_, s);
     MatrixXd before = turned_stress(s, a.stress(u)), after = b.stress(Q * u);
     if (s.is.line()) before.row(2) /= s.size, after.row(2) /= s.size;
     EXPECT_LT(largest(before - after), 40 * rounding * largest(before));

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 
 // Tolerances.
 // Of ΦᵀMΦ and ΦᵀKΦ, relative to the largest: what the theory note promises. Rounding of sums over
-// some hundred freedoms is 1e-13; the eigensolver's residual enters squared.
+// some hundred dofs is 1e-13; the eigensolver's residual enters squared.
 constexpr double orthogonality = 1e-10;
 // Displacement at a tied port over the largest of its shape.
 constexpr double on_tie = 1e-12;
@@ -162,7 +162,7 @@ TEST_P(FrameTieExam, TieRowsVanishOnEveryShapeAndOnNoRigidMotion) {
   on_rigid = (on_rigid.rowwise().norm().cwiseInverse().asDiagonal() * on_rigid).eval();
   EXPECT_GT(on_rigid.jacobiSvd().singularValues()[2], 1e-3);
   const ModalModel m = reduced();
-  // Independent freedoms out of nodal ones, by least squares.
+  // Independent dofs out of nodal ones, by least squares.
   const MatrixXd L = nodal(body.model, MatrixXd::Identity(body.model.n(), body.model.n()));
   const MatrixXd phi = L.colPivHouseholderQr().solve(m.shapes);
   for (int r = 0; r < 3; ++r)
@@ -205,23 +205,23 @@ TEST_P(TrueModes, LeaveNoResidualButTheReactionsOfTheTie) {
   EXPECT_LT(m.residual.maxCoeff(), 1e-6);
 }
 
-/// Flexibility at the ports under loads in equilibrium: A = FᵀK⁻F over independent freedoms, with K
+/// Flexibility at the ports under loads in equilibrium: A = FᵀK⁻F over independent dofs, with K
 /// made regular by a stiffness against rigid motions, which such loads do not feel.
 struct PortLoads {
-  MatrixXd load;      // n × (b − 3), in equilibrium, on port freedoms only
+  MatrixXd load;      // n × (b − 3), in equilibrium, on port dofs only
   MatrixXd response;  // their displacements
 };
 PortLoads balanced_loads(const Component& c) {
-  std::vector<int> freedoms;
+  std::vector<int> dofs;
   for (const Port& p : c.model.ports)
-    for (const int f : p.freedom)
-      if (f >= 0) freedoms.push_back(f);
+    for (const int f : p.dof)
+      if (f >= 0) dofs.push_back(f);
   MatrixXd rigid = rigid_motions(c.model);
-  const MatrixXd at_ports = rigid(freedoms, Eigen::all);
-  const auto b = static_cast<Eigen::Index>(freedoms.size());
+  const MatrixXd at_ports = rigid(dofs, Eigen::all);
+  const auto b = static_cast<Eigen::Index>(dofs.size());
   const MatrixXd balanced = at_ports.jacobiSvd(Eigen::ComputeFullU).matrixU().rightCols(b - 3);
   PortLoads loads{MatrixXd::Zero(c.model.n(), b - 3), {}};
-  loads.load(freedoms, Eigen::all) = balanced;
+  loads.load(dofs, Eigen::all) = balanced;
   rigid = rigid.householderQr().householderQ() * MatrixXd::Identity(rigid.rows(), 3);
   const MatrixXd K = c.K;
   const MatrixXd regular = K + K.diagonal().mean() * rigid * rigid.transpose();

@@ -63,7 +63,7 @@ Errors errors(const Manufactured& problem, int n) {
   const E e = element<E>(problem.m);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(mesh.dofs());
   for_points(mesh, e, [&](const Point& x, double volume, const auto& N, const auto& cell) {
-    const Freedoms<E> share = N.transpose() * problem.force(x) * volume;
+    const NodalVector<E> share = N.transpose() * problem.force(x) * volume;
     for (int i = 0; i < E::dofs; ++i) f[2 * cell[i / 2] + i % 2] += share[i];
   });
   const Eigen::VectorXd u = solve(assembled_stiffness(mesh, e), f, hold(mesh, on_rim));

@@ -230,7 +230,7 @@ TYPED_TEST(PlaneContract, LumpedMassIsPositiveAndKeepsTheMass) {
     const Coords<TypeParam> x = distorted<TypeParam>(random);
     double volume = 0;
     for_quadrature<TypeParam>([&](const Point& xi, double w) { volume += w * determinant(e, x, xi) * 0.01; });
-    const Freedoms<TypeParam> m = lumped_mass(e, x);
+    const NodalVector<TypeParam> m = lumped_mass(e, x);
     EXPECT_GT(m.minCoeff(), 0);
     EXPECT_NEAR(m.sum(), 2 * 7800 * volume, rounding * m.sum());
   }
@@ -244,11 +244,11 @@ TYPED_TEST(LinearPlane, LumpedMassKeepsTheMassCentre) {
   const auto e = element<TypeParam>({1, 0.3});
   Random random;
   const Coords<TypeParam> x = distorted<TypeParam>(random);
-  const Freedoms<TypeParam> m = lumped_mass(e, x);
+  const NodalVector<TypeParam> m = lumped_mass(e, x);
   Point lumped(0, 0), exact(0, 0);
   for (int i = 0; i < TypeParam::nodes; ++i) lumped += m[2 * i] * x.col(i);
   for_quadrature<TypeParam>([&](const Point& xi, double w) {
-    const Eigen::Map<const Freedoms<TypeParam>> nodal(x.data());
+    const Eigen::Map<const NodalVector<TypeParam>> nodal(x.data());
     exact += w * determinant(e, x, xi) * shape(e, x, xi) * nodal;
   });
   EXPECT_LT((lumped - exact).norm(), rounding);
@@ -263,7 +263,7 @@ TYPED_TEST_SUITE(QuadraticPlane, QuadraticKinds);
 TYPED_TEST(QuadraticPlane, LumpedMassIsInProportionToTheConsistentDiagonal) {
   const auto e = element<TypeParam>({1, 0.3});
   const auto mesh = grid<TypeParam>(1, 1);
-  const Freedoms<TypeParam> m = lumped_mass(e, mesh.coords(mesh.cells.front()));
+  const NodalVector<TypeParam> m = lumped_mass(e, mesh.coords(mesh.cells.front()));
   constexpr int n = TypeParam::nodes;
   const double corner = n == 6 ? 1.5 / 57 : n == 8 ? 3.0 / 76 : 1.0 / 36;
   const double middle = n == 6 ? 8.0 / 57 : n == 8 ? 16.0 / 76 : 4.0 / 36;

@@ -147,7 +147,7 @@ Eigen::SparseMatrix<double> assembled_mass(const Mesh<E>& mesh, const E& e) {
   return assemble<E>(mesh, e, [](const E& f, const Coords<E>& x) { return mass(f, x); });
 }
 
-/// Values prescribed to freedoms.
+/// Values prescribed to dofs.
 using Held = std::map<int, double>;
 
 template <class E>
@@ -172,7 +172,7 @@ inline Eigen::SparseMatrix<double> selection(Eigen::Index dofs, const Held& held
 
 inline Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& load, const Held& held) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(K.rows());
-  for (const auto& [freedom, value] : held) u[freedom] = value;
+  for (const auto& [dof, value] : held) u[dof] = value;
   const Eigen::SparseMatrix<double> P = selection(K.rows(), held);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(P.transpose() * K * P);
   if (factor.info() != Eigen::Success) throw std::runtime_error("patch: singular stiffness");
@@ -200,8 +200,8 @@ inline double lowest(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMa
 }
 
 template <class E>
-Freedoms<E> gather(const std::array<int, E::nodes>& cell, const Eigen::VectorXd& u) {
-  Freedoms<E> out;
+NodalVector<E> gather(const std::array<int, E::nodes>& cell, const Eigen::VectorXd& u) {
+  NodalVector<E> out;
   for (int i = 0; i < E::dofs; ++i) out[i] = u[2 * cell[i / 2] + i % 2];
   return out;
 }
@@ -228,7 +228,7 @@ void for_quadrature(const std::function<void(const Point& xi, double weight)>& v
 template <class E>
 double determinant(const E& e, const Coords<E>& x, const Point& xi) {
   constexpr double h = 0.25;
-  const Eigen::Map<const Freedoms<E>> nodal(x.data());
+  const Eigen::Map<const NodalVector<E>> nodal(x.data());
   Eigen::Matrix2d J;
   for (int k = 0; k < 2; ++k) {
     const Point step = h * Point::Unit(k);
@@ -242,7 +242,7 @@ template <class E, class Visit>
 void for_points(const Mesh<E>& mesh, const E& e, Visit visit) {
   for (const auto& cell : mesh.cells) {
     const Coords<E> x = mesh.coords(cell);
-    const Eigen::Map<const Freedoms<E>> nodal(x.data());
+    const Eigen::Map<const NodalVector<E>> nodal(x.data());
     for_quadrature<E>([&](const Point& xi, double weight) {
       const ShapeMatrix<E> N = shape(e, x, xi);
       visit(Point(N * nodal), weight * determinant(e, x, xi) * e.p.thickness, N, cell);

@@ -57,7 +57,7 @@ BendingError bending_error() {
   BendingError worst;
   for (const auto& cell : mesh.cells) {
     const Coords<E> x = mesh.coords(cell);
-    Freedoms<E> u;
+    NodalVector<E> u;
     for (int i = 0; i < E::nodes; ++i) u.template segment<2>(2 * i) = bent_displacement(x.col(i));
     const Stress<E> s = stress(e, x, u);
     const auto at_points = stress_points(e, x);
@@ -90,7 +90,7 @@ TYPED_TEST(PlaneStress, PointsAreWhereTheShapesPutThem) {
       mapped(turned_rectangle<TypeParam>(0.2), [](const Point& x) -> Point { return x + 0.05 * Point(x.y() * x.y(), x.x() * x.y()); });
   const TypeParam e;
   const auto x = mesh.coords(mesh.cells.front());
-  const Eigen::Map<const Freedoms<TypeParam>> nodal(x.data());
+  const Eigen::Map<const NodalVector<TypeParam>> nodal(x.data());
   const auto xi = reference_points(e);
   for (int p = 0; p < TypeParam::points; ++p) EXPECT_LT((stress_points(e, x).col(p) - shape(e, x, xi.col(p)) * nodal).norm(), rounding);
 }
@@ -144,7 +144,7 @@ TYPED_TEST(PlaneStress, OutOfPlaneStressHoldsPlaneStrainFlat) {
   const auto e = element<TypeParam>(m);
   const auto mesh = turned_rectangle<TypeParam>(0.3);
   const auto x = mesh.coords(mesh.cells.front());
-  Freedoms<TypeParam> u;
+  NodalVector<TypeParam> u;
   for (int i = 0; i < TypeParam::dofs; ++i) u[i] = std::sin(1.0 + 2.3 * i);
   const Stress<TypeParam> s = stress(e, x, u);
   // εz = (σz − ν (σx + σy))/E = 0.

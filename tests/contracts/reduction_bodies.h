@@ -21,7 +21,7 @@ struct SampleBody {
   std::vector<int> port_nodes;
 
   int ports() const { return static_cast<int>(model.ports.size()); }
-  bool turns() const { return model.ports.front().freedom[2] >= 0; }
+  bool turns() const { return model.ports.front().dof[2] >= 0; }
 };
 
 /// [u_x u_y φ] of a port in a nodal field; φ = 0 where the node has none. Of a rim: the mean, and
@@ -107,7 +107,7 @@ inline SampleBody plate_on_nodes() {
   return on_nodes(model_of(p, steel(PlaneState::strain)), p.nodes.at("left")[1], p.nodes.at("right")[2]);
 }
 
-/// Nodal matrices, and fields in nodal freedoms as the test makes them from the nodes.
+/// Nodal matrices, and fields in nodal dofs as the test makes them from the nodes.
 struct NodalMatrices {
   Eigen::MatrixXd K, M, G;
 };

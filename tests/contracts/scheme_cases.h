@@ -58,7 +58,7 @@ inline Case make() {
 }
 }  // namespace link
 
-// The free slider-crank of the oracle, which integrates its one freedom tightly.
+// The free slider-crank of the oracle, which integrates its one dof tightly.
 namespace crank {
 inline pintle_oracle::Params params() {
   pintle_oracle::Params p;

@@ -35,10 +35,10 @@ const std::vector<Named> laws{
     {"PeriodicPolyline", periodic_table(round_trip, true, of_p), 2},
     {"PeriodicSpline", periodic_table(round_trip, false, of_p), 2},
     {"TableOverABend", SignalTable{.table = Polyline(peaks), .over = bent}, 3},
-    {"RefusingTable", SignalTable{.table = Polyline(peaks), .over = of_p, .outside = Outside::refused}, 2},
+    {"RefusingTable", SignalTable{.table = Polyline(peaks), .over = of_p, .outside = Outside::rejected}, 2},
     {"Map", SignalMap{hills, {of_p, of_q}, Outside::holds}, 2},
     {"MapOverBends", SignalMap{hills, {bent, formula({q, p, {Op::min}})}, Outside::holds}, 4},
-    {"RefusingMap", SignalMap{hills, {of_p, of_q}, Outside::refused}, 2},
+    {"RefusingMap", SignalMap{hills, {of_p, of_q}, Outside::rejected}, 2},
 };
 
 class SidedLaws : public testing::TestWithParam<Named> {

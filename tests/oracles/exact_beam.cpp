@@ -45,7 +45,7 @@ struct Run {
   Eigen::MatrixXd a;
 };
 
-/// J += the stage's tangent by the accelerations of all; stage i of freedom k is row stages·k + i.
+/// J += the stage's tangent by the accelerations of all; stage i of dof k is row stages·k + i.
 void add_stage(const BeamMesh& m, const Internal& in, int i, double h, Band& J) {
   for (std::size_t e = 0; e < in.tangents.size(); ++e) {
     const ElementMatrix& K = in.tangents[e];

@@ -114,7 +114,7 @@ void validate_start(const BeamMesh& m) {
 }
 
 /// T, Te and first. Columns of T come node by node: an element's free coordinates are neighbours.
-void add_freedoms(BeamMesh& m) {
+void add_dofs(BeamMesh& m) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<int> begin;  // column of a node's first coordinate
   int free = 0;
@@ -211,7 +211,7 @@ BeamMesh build(const ExactBeam& beam, const BeamStart& start) {
              .first = {},
              .rest = {start(0), start(beam.length)}};
   validate_start(m);
-  add_freedoms(m);
+  add_dofs(m);
   add_mass(m);
   m.Mz = m.T.transpose() * m.M * m.T;
   return m;

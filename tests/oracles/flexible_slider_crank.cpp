@@ -47,7 +47,7 @@ Point point(const Params& p, const Pose& at, const Y& y, double xi) {
   return out;
 }
 
-Vector6 rates(const Y& y) { return Eigen::Map<const Vector6>(y.data() + freedoms); }
+Vector6 rates(const Y& y) { return Eigen::Map<const Vector6>(y.data() + dofs); }
 
 Inertia inertia(const Params& p, const Pose& at, const Y& y) {
   Inertia out{Matrix6::Zero(), Vector6::Zero(), Vector6::Zero()};
@@ -221,9 +221,9 @@ void rhs(const Model& m, const State& s, Y& dy) {
   Y y = s.y;
   if (m.ideal) close_loop(m.p, y);
   const Motion now = motion(m, y, s.touching, s.latch);
-  for (std::size_t i = 0; i < freedoms; ++i) {
-    dy[i] = y[freedoms + i];
-    dy[freedoms + i] = now.acceleration[static_cast<int>(i)];
+  for (std::size_t i = 0; i < dofs; ++i) {
+    dy[i] = y[dofs + i];
+    dy[dofs + i] = now.acceleration[static_cast<int>(i)];
   }
   dy[12] = now.hysteresis_power;
   dy[13] = now.friction_power;

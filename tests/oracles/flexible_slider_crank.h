@@ -66,7 +66,7 @@ struct Beam {
 Beam beam(const Params&);
 
 /// y = (q, q̇, losses by hysteresis, friction, Rayleigh damping [J]).
-constexpr int freedoms = 6, dynamic = 12, size = 15;
+constexpr int dofs = 6, dynamic = 12, size = 15;
 using Y = std::array<double, size>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;

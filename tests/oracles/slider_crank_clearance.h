@@ -106,7 +106,7 @@ double rhs(const Params&, const State&, Y& dy);
 Stats simulate(const Params&, const Options&, double t_end, State& state, const std::function<void(const Impact&)>& on_impact = {},
                const std::function<void(const Sample&)>& on_sample = {});
 
-/// The same mechanism without clearance: one freedom.
+/// The same mechanism without clearance: one dof.
 struct Ideal {
   double angle, speed, acceleration;  ///< of the crank
   double phi, phi_rate, x, x_rate, x_acceleration;

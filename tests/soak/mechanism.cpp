@@ -157,7 +157,7 @@ class Drawing {
 
   void join(const char* kind, const Attachment& a, const Attachment& b, const std::string& more, int rows) {
     drawn_.joints.push_back(name(kind) + ": {" + kind + ": [" + a.text + ", " + b.text + "]" + more + "}");
-    freedoms_ -= rows;
+    dofs_ -= rows;
   }
   static std::string keyed(const char* key, double value) {
     std::ostringstream s;
@@ -170,7 +170,7 @@ class Drawing {
   void hang(int parent) {
     const Attachment a = some(parent);
     const double slide = turn(), pick = chance_.unit();
-    freedoms_ += 3;
+    dofs_ += 3;
     if (pick < 0.52) {
       const int b = add_body(a.r, near(a.r));
       join("revolute", a, at(b, a.r, turn()), "", 2);
@@ -205,7 +205,7 @@ class Drawing {
     const Attachment g = some(a);
     const double pick = chance_.unit();
     const bool may_overconstrain = chance_.one_in(8);
-    const auto fits = [&](int rows) { return freedoms_ >= rows + 1 || may_overconstrain; };
+    const auto fits = [&](int rows) { return dofs_ >= rows + 1 || may_overconstrain; };
     if (pick < 0.5 && fits(2) && can_grip(b, g.r)) {
       if (chance_.one_in(4))
         clearance(g, at(b, g.r, turn()));
@@ -226,7 +226,7 @@ class Drawing {
     for (int i = 0; i < n; ++i) {
       if (i == 0 && floating) {
         add_body({0, 0}, {0, 0});
-        freedoms_ += 3;
+        dofs_ += 3;
       } else {
         hang(i == 0 || (!floating && chance_.one_in(5)) ? ground : chance_.one_in(2) ? i - 1 : chance_.below(i));
       }
@@ -246,7 +246,7 @@ class Drawing {
       const int b = add_body(foot, foot + 0.5 * up);
       Link& l = link(b);
       if (l.beam) l.r = foot, l.angle = base + open, l.length = crank, l.points[1].at.x() = crank / 2, l.points[2].at.x() = crank;
-      freedoms_ += 3;
+      dofs_ += 3;
       const Attachment a = attachment(ground, foot, turn()), f = at(b, foot, turn());
       join("revolute", a, f, "", 2);
       turning_.push_back({a, f});
@@ -256,7 +256,7 @@ class Drawing {
         drawn_.flexible = false;
         const int rod = add_body(before.r, 0.5 * (before.r + top.r));
         drawn_.flexible = bends;
-        freedoms_ += 3;
+        dofs_ += 3;
         join("revolute", before, attachment(rod, before.r, 0), "", 2);
         if (chance_.one_in(6))
           clearance(top, attachment(rod, top.r, 0));
@@ -282,7 +282,7 @@ class Drawing {
     if (l.beam)
       l.r = elbow, l.length = rod, l.angle = std::atan2(x * axis.y() - elbow.y(), x * axis.x() - elbow.x()), l.points[1].at.x() = rod / 2,
       l.points[2].at.x() = rod;
-    freedoms_ += 9;
+    dofs_ += 9;
     const Attachment o = attachment(ground, {0, 0}, base), crank_o = attachment(shaft, {0, 0}, base + angle);
     join("revolute", o, crank_o, "", 2);
     turning_.push_back({o, crank_o});
@@ -320,16 +320,16 @@ class Drawing {
 
   void drivers() {
     for (int i = chance_.unit() < (drawn_.loops ? 0.8 : 0.5) ? 0 : chance_.one_in(4) ? 2 : 1; i > 0 && !turning_.empty(); --i) {
-      if (freedoms_ < 1 && !chance_.one_in(4)) return;
+      if (dofs_ < 1 && !chance_.one_in(4)) return;
       const auto& [a, b] = chance_.of(turning_);
       std::ostringstream s;
       s.precision(17);
       const double w = pace();
       s << b.direction - a.direction << (chance_.one_in(2) ? " + 0.7*sin(" : " + 0*sin(") << w << "*t) + " << chance_.one_in(2) * w << "*t";
       drawn_.drivers.push_back(name("motor") + ": {angle: [" + a.text + ", " + b.text + "], law: \"" + s.str() + "\"}");
-      --freedoms_;
+      --dofs_;
     }
-    if (!chance_.one_in(6) || bodies() < 2 || freedoms_ < 1) return;
+    if (!chance_.one_in(6) || bodies() < 2 || dofs_ < 1) return;
     const Attachment a = some(chance_.one_in(2) ? ground : 0), b = some(bodies() - 1);
     const double d = (a.r - b.r).norm();
     if (d < 0.1 * drawn_.size) return;
@@ -388,7 +388,7 @@ class Drawing {
   Chance chance_;
   Drawn drawn_;
   std::vector<std::pair<Attachment, Attachment>> turning_;  ///< pairs whose angle a driver may impose
-  int freedoms_ = 0, named_ = 0;
+  int dofs_ = 0, named_ = 0;
 };
 
 }  // namespace

@@ -164,7 +164,7 @@ Values elastic_frequencies(const closed::Frame& frame, int n, int count) {
   const Assembler assembler(model);
   Supports held;
   for (const int node : frame.pinned) hold(held, model, node, true, true, false);
-  const std::vector<int> free = free_freedoms(model, held);
+  const std::vector<int> free = free_dofs(model, held);
   EigenOptions options;
   options.count = count + (frame.pinned.empty() ? 3 : 0);
   const EigenPairs pairs = eigen_lowest(restricted(assembler.stiffness(), free), restricted(assembler.mass(), free), options);

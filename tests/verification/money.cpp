@@ -21,7 +21,7 @@ struct Try {
   int along;
   Scene scene;
   Values ours, seconds = {};
-  int freedoms = 0;
+  int dofs = 0;
   Row row() const { return {element, printed("%d × %d", along, along / 2), "", ours, converged}; }
   double worst() const { return std::abs(error(row())); }
   double median() const {
@@ -35,7 +35,7 @@ void run(Try& t) {
   const ElasticBody e = body(t.scene);
   const ModesReport r = modes_of(t.scene, e, 6);
   t.seconds.push_back(e.assembly_seconds + r.seconds);
-  t.freedoms = e.model.n() - static_cast<int>(together(supports_of(t.scene, e)).freedoms.size());
+  t.dofs = e.model.n() - static_cast<int>(together(supports_of(t.scene, e)).dofs.size());
   t.ours.clear();
   for (const double omega : r.natural.modes.omega) t.ours.push_back(omega / (2 * paper::pi));
 }
@@ -87,21 +87,21 @@ Problem fv32(const std::vector<Try>& all) {
 }
 
 void draw(const std::vector<Try>& all) {
-  paper::Panel freedoms{"Worst of six frequencies", "log10 of freedoms", "log10 of relative error", {}};
+  paper::Panel dofs{"Worst of six frequencies", "log10 of degrees of freedom", "log10 of relative error", {}};
   paper::Panel time{"The same against time", "log10 of milliseconds", "log10 of relative error", {}};
   for (std::size_t k = 0; k < all.size(); k += 3) {
     paper::Curve a{short_names[k / 3], {}, {}, k / 3 > 5};
     paper::Curve b = a;
     for (std::size_t i = k; i < k + 3; ++i) {
-      a.x.push_back(std::log10(all[i].freedoms));
+      a.x.push_back(std::log10(all[i].dofs));
       b.x.push_back(std::log10(1e3 * all[i].median()));
       a.y.push_back(std::log10(all[i].worst()));
       b.y.push_back(a.y.back());
     }
-    freedoms.curves.push_back(a);
+    dofs.curves.push_back(a);
     time.curves.push_back(b);
   }
-  paper::figure("../verification/fv32", {freedoms, time});
+  paper::figure("../verification/fv32", {dofs, time});
 }
 
 /// Of the tries that stay within a bound the one with the least of something.
@@ -115,16 +115,16 @@ const Try* least(const std::vector<Try>& all, double within, const Measure& meas
 
 std::string shown(const Try* t) {
   if (!t) return "none";
-  return printed("%s %s: %d, %.1f ms", t->element.c_str(), t->row().mesh.c_str(), t->freedoms, 1e3 * t->median());
+  return printed("%s %s: %d, %.1f ms", t->element.c_str(), t->row().mesh.c_str(), t->dofs, 1e3 * t->median());
 }
 
 std::string table(const std::vector<Try>& all) {
   std::ostringstream md;
-  md << "| element | mesh | freedoms | mode 1 | 2 | 3 | 4 | 5 | 6 | worst | time [ms] |\n"
+  md << "| element | mesh | degrees of freedom | mode 1 | 2 | 3 | 4 | 5 | 6 | worst | time [ms] |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Try& t = all[k];
-    md << "| " << t.element << " (" << short_names[k / 3] << ") | " << t.row().mesh << " | " << t.freedoms;
+    md << "| " << t.element << " (" << short_names[k / 3] << ") | " << t.row().mesh << " | " << t.dofs;
     for (std::size_t i = 0; i < 6; ++i) md << printed(" | %+.3f", 100 * (t.ours[i] / converged[i] - 1));
     md << printed(" | %.3f | %.1f |\n", 100 * t.worst(), 1e3 * t.median());
   }
@@ -139,7 +139,7 @@ std::string spread(const std::vector<Try>& all) {
     else
       best = std::min(best, all[i].worst()), worst = std::max(worst, all[i].worst());
   return printed(
-      "On the finest meshes, of like freedoms, the quadratic elements differ by a factor of %.1f, "
+      "On the finest meshes, with about as many degrees of freedom, the quadratic elements differ by a factor of %.1f, "
       "and "
       "the best linear one errs %.0f times as much as the worst of them.",
       worst / best, linear / worst);
@@ -147,22 +147,22 @@ std::string spread(const std::vector<Try>& all) {
 
 std::string advice(const std::vector<Try>& all) {
   std::ostringstream md;
-  md << "\nThe least of these runs that has all six frequencies within a bound (freedoms, "
+  md << "\nThe least of these runs that has all six frequencies within a bound (degrees of freedom, "
         "time):\n\n"
-        "| within | least time | fewest freedoms | triangle6 |\n|---|---|---|---|\n";
+        "| within | least time | fewest degrees of freedom | triangle6 |\n|---|---|---|---|\n";
   std::string names;
   std::vector<Try> triangles;
   std::ranges::copy_if(all, std::back_inserter(triangles), [](const Try& t) { return t.element == "triangle6"; });
   const auto time = [](const Try& t) { return t.median(); };
-  const auto size = [](const Try& t) { return std::pair(t.freedoms, t.worst()); };
+  const auto size = [](const Try& t) { return std::pair(t.dofs, t.worst()); };
   for (const double within : {0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001}) {
     const Try *quick = least(all, within, time), *small = least(all, within, size);
     md << printed("| %g %% | ", 100 * within) << shown(quick) << " | " << shown(small) << " | " << shown(least(triangles, within, time))
        << " |\n";
     if (small && names.find(small->element + ",") == std::string::npos) names += small->element + ", ";
   }
-  md << "\n**Which element to take**: for the fewest freedoms, as the bound tightens, " << names.substr(0, names.size() - 2) << ". "
-     << spread(all)
+  md << "\n**Which element to take**: for the fewest degrees of freedom, as the bound tightens, " << names.substr(0, names.size() - 2)
+     << ". " << spread(all)
      << " So take a quadratic one. Gmsh meshes every drawing with triangle6, the element that a "
         "scene gets unless it asks for another; the last column is what that costs. Of the linear "
         "ones take quadrilateral4, and never triangle3 where a part bends.\n";
@@ -171,7 +171,7 @@ std::string advice(const std::vector<Try>& all) {
 
 Problem as_beam() {
   Problem p{"FV32 as a tapered beam", "Hz",
-            "The same body as a tapered Timoshenko beam of 32 elements, 96 freedoms. Scene "
+            "The same body as a tapered Timoshenko beam of 32 elements, 96 degrees of freedom. Scene "
             "[fv32_beam](../examples/verification/fv32_beam.yaml).",
             "beam theory at a depth of half the length is a model, not an approximation that a finer "
             "mesh would mend: shown."};
@@ -195,7 +195,7 @@ std::string accuracy_for_money(Problems& problems, bool timed) {
          "K and M and find the modes to a residual of 1e-9 (median of nine, taken in turn, one "
          "machine with "
          "two cores).\n\n" +
-         table(all) + "\n![Error against freedoms and time](verification/fv32.svg)\n" +
+         table(all) + "\n![Error against degrees of freedom and time](verification/fv32.svg)\n" +
          (all[0].median() > all[1].median() ? "\nThe coarsest meshes are small enough for the "
                                               "eigensolver to work densely, and take "
                                               "longer than the middle ones, which it solves by "

@@ -37,7 +37,7 @@ double error(const Row&);
 void static_problems(Problems&);
 void beam_problems(Problems&);
 void plate_problems(Problems&);
-/// FV32 by every element and three meshes: error against freedoms and, if `timed`, seconds.
+/// FV32 by every element and three meshes: error against dofs and, if `timed`, seconds.
 /// Text of the page and, if `timed`, the figure.
 std::string accuracy_for_money(Problems&, bool timed);
 

@@ -119,14 +119,14 @@ void solve_by_algebra(const Scene& scene, const Model& model, const Assembly& as
   for (const std::string& warning : warnings_of(model, assembly)) run.warnings.push_back(warning);
   Forces forces(model.system, assembly.start);
   std::size_t rows = 0;  // that the listener has taken
-  Listeners told = listeners;
+  Listeners also = listeners;
   if (listeners.rows)
-    told.rows = [&](const Table& trajectory, const auto&... others) {
+    also.rows = [&](const Table& trajectory, const auto&... others) {
       rows += trajectory.rows();
       listeners.rows(trajectory, others...);
     };
   follow(
-      scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, told, run);
+      scene, model, forces.motion(), [&](double t) { return forces.advance(t); }, also, run);
   if (run.status == Status::failed && run.reason.empty())
     run.reason = "t = " + number_text(forces.motion().state().t, 9) + " s: the forces there are not finite; " +
                  explain_signals(scene, model, assembly.start, forces.motion().state());
@@ -141,14 +141,14 @@ void integrate(Scene scene, const Model& model, const Assembly& assembly, const 
   const bool drawn = scene.output.frames > 1;
   const int between = drawn ? std::max(1, least / (scene.output.frames - 1)) : least;
   scene.output.frames = between * (drawn ? scene.output.frames - 1 : 1) + 1;
-  Listeners told = listeners;
+  Listeners also = listeners;
   int k = 0;
-  told.frame = [&](const State& state, const Equations& eq) {
+  also.frame = [&](const State& state, const Equations& eq) {
     add_efforts(model.system, state.t, eq, out.drivers);
     if (drawn && listeners.frame && k % between == 0) listeners.frame(state, eq);
     ++k;
   };
-  out.run = simulate(scene, model, steady_start(model, assembly), told);
+  out.run = simulate(scene, model, steady_start(model, assembly), also);
   for (DriverEffort& e : out.drivers) e.error = spline_error(e);
 }
 

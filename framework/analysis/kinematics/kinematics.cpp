@@ -175,11 +175,11 @@ void require_driven(const Scene& scene, const Model& model, const Assembly& asse
                           (singular ? "or start from another pose, " : "") + "or use `pintle run`");
 }
 
-void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const std::function<bool(double)>& advance,
+void follow(const Scene& scene, const Model& written, DrivenMotion& motion, const std::function<bool(double)>& advance,
             const Listeners& listeners, Run& run) {
   const double begin = processor_time();
   double drawing = 0;
-  run.trajectory = trajectory_table(told);
+  run.trajectory = trajectory_table(written);
   require_few_rows(scene, listeners);
   const double until = scene.run.until;
   Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
@@ -198,8 +198,8 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
       if (!going) break;
       reached = t;
       if (outputs.due(t)) {
-        record(told, motion.state(), motion.equations(), run.trajectory), outputs.tick();
-        warn_of_signals(scene, told, motion.state(), run.trajectory, run.warnings);
+        record(written, motion.state(), motion.equations(), run.trajectory), outputs.tick();
+        warn_of_signals(scene, written, motion.state(), run.trajectory, run.warnings);
         if (listeners.rows) {
           listeners.rows(run.trajectory, run.ledger, run.impacts, run.happenings);
           run.trajectory.data.clear();
@@ -229,9 +229,9 @@ void follow(const Scene& scene, const Model& told, DrivenMotion& motion, const s
 namespace {
 
 // Keeps the outputs whose columns are all recorded, and reads them from there.
-void keep_outputs_of(const Model& model, Model& told) {
-  const std::vector<WrittenOutput> all = std::exchange(told.outputs, {});
-  const std::vector<std::string> were = trajectory_table(model).header, are = trajectory_table(told).header;
+void keep_outputs_of(const Model& model, Model& written) {
+  const std::vector<WrittenOutput> all = std::exchange(written.outputs, {});
+  const std::vector<std::string> were = trajectory_table(model).header, are = trajectory_table(written).header;
   std::vector<int> now(all.size(), -1);
   for (std::size_t k = 0; k < all.size(); ++k) {
     WrittenOutput output = all[k];
@@ -247,8 +247,8 @@ void keep_outputs_of(const Model& model, Model& told) {
       told_of = told_of && input.index >= 0 && !of_state;
     }
     if (!told_of) continue;
-    now[k] = static_cast<int>(told.outputs.size());
-    told.outputs.push_back(std::move(output));
+    now[k] = static_cast<int>(written.outputs.size());
+    written.outputs.push_back(std::move(output));
   }
 }
 
@@ -256,10 +256,10 @@ void keep_outputs_of(const Model& model, Model& told) {
 
 Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly, const Listeners& listeners) {
   require_driven(scene, model, assembly);
-  Model told = model;  // what is written: no forces, and no states, whose rates would have to be integrated
-  told.system.joints.clear(), told.system.forces.clear(), told.system.contacts.clear(), told.system.frictions.clear();
-  told.system.internal.clear(), told.system.states.clear(), told.stresses.clear(), told.order = {};
-  keep_outputs_of(model, told);
+  Model written = model;  // what is written: no forces, and no states, whose rates would have to be integrated
+  written.system.joints.clear(), written.system.forces.clear(), written.system.contacts.clear(), written.system.frictions.clear();
+  written.system.internal.clear(), written.system.states.clear(), written.stresses.clear(), written.order = {};
+  keep_outputs_of(model, written);
   Run run;
   run.warnings = model.warnings;
   if (!model.system.contacts.empty())
@@ -274,7 +274,7 @@ Run kinematics(const Scene& scene, const Model& model, const Assembly& assembly,
     motion.equations().a = motion.acceleration();
     return true;
   };
-  follow(scene, told, motion, advance, listeners, run);
+  follow(scene, written, motion, advance, listeners, run);
   return run;
 }
 

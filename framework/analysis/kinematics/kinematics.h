@@ -59,9 +59,9 @@ Run kinematics(const Scene&, const Model&, const Assembly&, const Listeners& = {
 void write_kinematics(const std::filesystem::path& directory, const Scene&, const Model&, const Run&);
 std::string kinematics_json(const Scene&, const Model&, const Run&);
 
-/// Follows a driven motion through the scene's outputs, recorded in the run's table as defined by `told`, and its frames, until its end, a
+/// Follows a driven motion through the scene's outputs, recorded in the run's table as defined by `written`, and its frames, until its end, a
 /// failure or the listener's stop. Fills in status, reason, times and counts of the run.
 /// @param advance  advances to a time and evaluates what is recorded there; returns false if this fails, see failure()
-void follow(const Scene&, const Model& told, DrivenMotion&, const std::function<bool(double)>& advance, const Listeners&, Run&);
+void follow(const Scene&, const Model& written, DrivenMotion&, const std::function<bool(double)>& advance, const Listeners&, Run&);
 
 }  // namespace pintle

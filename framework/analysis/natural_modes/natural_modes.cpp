@@ -18,7 +18,7 @@ namespace {
 
 /// The lowest modes of the body with the `held` degrees of freedom fixed, as shapes of all degrees of freedom.
 ModalModel held_modes(const ElasticBody& e, const Component& c, const Supports& held, int count, int& rigid) {
-  const std::vector<int> free = free_freedoms(e.model, held);
+  const std::vector<int> free = free_dofs(e.model, held);
   const Sparse K = restricted(c.K, free), M = restricted(c.M, free);
   EigenOptions options;
   options.count = count;

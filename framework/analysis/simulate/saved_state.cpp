@@ -115,7 +115,7 @@ SavedState read_state(const std::filesystem::path& file, const Scene& scene, con
   std::string text;
   try {
     text = read_file(file, most_bytes);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     throw SceneError(source + ": " + rejected.what() + "; name a file states/NNNNN.state of a run");
   }
   if (text.empty()) throw SceneError(source + ": is empty; name another file states/NNNNN.state of a run");

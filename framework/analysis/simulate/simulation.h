@@ -93,7 +93,7 @@ class Simulation {
   bool advance(double t, bool to_event);
   bool goes_on() const { return going_ && run_.status == Status::finished && integrator_.ended().empty(); }
   bool step(double until);
-  bool is_stopped(double t);  ///< by the listener, told the progress
+  bool is_stopped(double t);  ///< by the listener, which receives the progress
   bool lacks_rows() const;    ///< rows up to the end of the last step: the run ended within it
   bool after_step();
   bool report();

@@ -89,7 +89,7 @@ std::vector<SupportReaction> share(const ElasticBody& e, const std::vector<Named
   std::vector<SupportReaction> out;
   for (const NamedSupport& s : supports) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const int f : s.held.freedoms) {
+    for (const int f : s.held.dofs) {
       sum += rigid.row(f).transpose() * reactions[f];
       reactions[f] = 0;
     }
@@ -127,7 +127,7 @@ StaticReport report_of(const Scene& scene, const ElasticBody& e, const std::vect
   r.reactions = share(e, supports, r.solution.reactions);
   for (const Port& p : e.model.ports) {
     Eigen::Vector3d u;
-    for (int k = 0; k < 3; ++k) u[k] = p.freedom[k] < 0 ? std::numeric_limits<double>::quiet_NaN() : r.solution.independent[p.freedom[k]];
+    for (int k = 0; k < 3; ++k) u[k] = p.dof[k] < 0 ? std::numeric_limits<double>::quiet_NaN() : r.solution.independent[p.dof[k]];
     r.ports.push_back({p.name, p.x, u});
   }
   const BodyDrawing drawing(e);

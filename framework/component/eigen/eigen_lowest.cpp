@@ -62,7 +62,7 @@ void factor_shifted(Search& s) {
     if (s.factor.compute(shifted(s.K, s.M, s.mu))) return;
     if (i + 1 < attempts) s.mu *= 100;
   }
-  throw std::runtime_error(not_definite(s.mu) + " (at freedom " + std::to_string(s.factor.pivot()) + ")");
+  throw std::runtime_error(not_definite(s.mu) + " (at degree of freedom " + std::to_string(s.factor.pivot()) + ")");
 }
 
 VectorXd residuals(const Subspace& space, const Search& s, Index count) {

@@ -191,7 +191,7 @@ Sparse Assembler::mass(MassKind kind) const {
     std::visit(
         [&]<class E>(const Block<E>& block) {
           for (int i = 0; i < block.size(); ++i) {
-            const Freedoms<E> m = lumped_mass(block.element(i), block.coords(i, model_.x));
+            const NodalVector<E> m = lumped_mass(block.element(i), block.coords(i, model_.x));
             for (int k = 0; k < E::nodes; ++k) {
               const int node = block.nodes_of(i)[k];
               diagonal.segment<E::dofs_per_node>(model_.begin[static_cast<std::size_t>(node)]) +=

@@ -8,7 +8,7 @@ namespace pintle {
 
 enum class MassKind { consistent, lumped };
 
-/// Sparse matrices of a model, N × N in nodal freedoms, both triangles stored. The pattern is found once; each matrix is then a pass over
+/// Sparse matrices of a model, N × N in nodal dofs, both triangles stored. The pattern is found once; each matrix is then a pass over
 /// the elements that only adds values. K, M, G and K_g have the same pattern, including its zeros, with ascending rows. Time and memory are
 /// linear in the number of elements.
 class Assembler {

@@ -61,7 +61,7 @@ CoupledShape coupled_shape(const FeModel& model, const RimPort& rim) {
   return shape;
 }
 
-// p = C u over the rim's freedoms [u_x u_y] node by node: the rigid motion that best fits u, as [u_x u_y φ] of the port. The row of the
+// p = C u over the rim's dofs [u_x u_y] node by node: the rigid motion that best fits u, as [u_x u_y φ] of the port. The row of the
 // rotation is in rad.
 Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const CoupledShape& shape) {
   const auto k = static_cast<Index>(rim.nodes.size());
@@ -79,17 +79,17 @@ Eigen::Matrix3Xd average_motion(const FeModel& model, const RimPort& rim, const 
   return C;
 }
 
-// A rim's nodal freedoms and how they are coupled.
+// A rim's nodal dofs and how they are coupled.
 struct Rim {
-  std::vector<int> freedoms;   // nodal, of the rim, [u_x u_y] node by node
-  std::array<int, 3> given{};  // average: indices in `freedoms` of those determined by the others and the port
+  std::vector<int> dofs;       // nodal, of the rim, [u_x u_y] node by node
+  std::array<int, 3> given{};  // average: indices in `dofs` of those determined by the others and the port
   Eigen::Matrix3Xd C;          // average
 };
 
 Rim average_rim(const FeModel& model, const RimPort& port, const CoupledShape& shape) {
   Rim rim;
   for (const int node : port.nodes)
-    for (int d = 0; d < 2; ++d) rim.freedoms.push_back(model.begin[static_cast<std::size_t>(node)] + d);
+    for (int d = 0; d < 2; ++d) rim.dofs.push_back(model.begin[static_cast<std::size_t>(node)] + d);
   rim.C = average_motion(model, port, shape);
   Eigen::Matrix3Xd even = rim.C;
   even.row(2) *= shape.radius;
@@ -118,11 +118,10 @@ void add_average_rows(const FeModel& model, const Rim& rim, int port, Triplets& 
   const Eigen::Matrix3d inverse = Ce.inverse();
   const Eigen::Matrix3Xd others = inverse * rim.C;
   for (int r = 0; r < 3; ++r) {
-    const int row = rim.freedoms[static_cast<std::size_t>(rim.given[static_cast<std::size_t>(r)])];
+    const int row = rim.dofs[static_cast<std::size_t>(rim.given[static_cast<std::size_t>(r)])];
     for (int d = 0; d < 3; ++d) L.emplace_back(row, port + d, inverse(r, d));
-    for (std::size_t k = 0; k < rim.freedoms.size(); ++k)
-      if (const int column = model.independent_of(rim.freedoms[k]); column >= 0)
-        L.emplace_back(row, column, -others(r, static_cast<Index>(k)));
+    for (std::size_t k = 0; k < rim.dofs.size(); ++k)
+      if (const int column = model.independent_of(rim.dofs[k]); column >= 0) L.emplace_back(row, column, -others(r, static_cast<Index>(k)));
   }
 }
 
@@ -172,7 +171,7 @@ void add_ports(FeModel& model, const std::vector<NodePort>& nodes, const std::ve
           independent[static_cast<std::size_t>(i)] = -1;
     } else {
       average[r] = average_rim(model, rims[r], shapes[r]);
-      for (const int k : average[r].given) independent[static_cast<std::size_t>(average[r].freedoms[static_cast<std::size_t>(k)])] = -1;
+      for (const int k : average[r].given) independent[static_cast<std::size_t>(average[r].dofs[static_cast<std::size_t>(k)])] = -1;
     }
   }
   int n = rims.empty() ? N : 0;
@@ -183,7 +182,7 @@ void add_ports(FeModel& model, const std::vector<NodePort>& nodes, const std::ve
   for (const NodePort& port : nodes) {
     const int at = model.begin[static_cast<std::size_t>(port.node)];
     Port made{port.name, model.x.col(port.node), {-1, -1, -1}};
-    for (int d = 0; at + d < model.begin[static_cast<std::size_t>(port.node) + 1]; ++d) made.freedom[d] = model.independent_of(at + d);
+    for (int d = 0; at + d < model.begin[static_cast<std::size_t>(port.node) + 1]; ++d) made.dof[d] = model.independent_of(at + d);
     model.ports.push_back(made);
   }
   if (rims.empty()) return;

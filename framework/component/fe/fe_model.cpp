@@ -82,9 +82,9 @@ Eigen::MatrixX3d rigid_motions(const FeModel& model) {
   for (int i = 0; i < model.N(); ++i)
     if (const int k = model.independent_of(i); k >= 0) all.row(k) << f.T.row(i), f.R[i];
   for (const Port& port : model.ports) {
-    all.row(port.freedom[0]) << 1, 0, -port.x.y();
-    all.row(port.freedom[1]) << 0, 1, port.x.x();
-    if (port.freedom[2] >= 0) all.row(port.freedom[2]) << 0, 0, 1;
+    all.row(port.dof[0]) << 1, 0, -port.x.y();
+    all.row(port.dof[1]) << 0, 1, port.x.x();
+    if (port.dof[2] >= 0) all.row(port.dof[2]) << 0, 0, 1;
   }
   return all;
 }

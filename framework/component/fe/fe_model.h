@@ -45,12 +45,12 @@ struct Lump {
 };
 
 /// A point where a mechanism may connect to a body: a node, or the middle of a hole whose rim is coupled to it. Its displacement and
-/// rotation are separate freedoms, so that joints use three numbers.
+/// rotation are separate dofs, so that joints use three numbers.
 struct Port {
   std::string name;
   Eigen::Vector2d x;  ///< body axes [m]
-  /// Independent freedoms u_x, u_y, φ; φ = −1 where it has no rotation.
-  int freedom[3] = {-1, -1, -1};
+  /// Independent dofs u_x, u_y, φ; φ = −1 where it has no rotation.
+  int dof[3] = {-1, -1, -1};
 };
 
 /// How the rim of a hole is coupled to the port in its middle.
@@ -59,25 +59,25 @@ enum class Coupling {
   average,  ///< the port follows the average motion of the rim (weighted by length); the rim stays flexible
 };
 
-/// A body made of elements. Its N nodal freedoms are ordered node by node; the n independent ones are those that remain after couplings
+/// A body made of elements. Its N nodal dofs are ordered node by node; the n independent ones are those that remain after couplings
 /// have tied rims to ports: u = L ũ. They keep the nodal order, followed by u_x, u_y, φ of each rim's port. Theory:
 /// docs/theory/couplings.md.
 struct FeModel {
   Eigen::Matrix2Xd x;  ///< nodes, body axes [m]
   std::vector<AnyBlock> blocks;
   std::vector<Lump> lumps;       ///< a lump with J > 0 must be at a node with a rotation
-  std::vector<int> begin;        ///< first nodal freedom of each node, one past; 2 or 3 each
+  std::vector<int> begin;        ///< first nodal dof of each node, one past; 2 or 3 each
   Sparse L;                      ///< N × n; 0 × 0 stands for the identity
-  std::vector<int> independent;  ///< for each nodal freedom, −1 where L determines it; empty: all are independent
+  std::vector<int> independent;  ///< for each nodal dof, −1 where L determines it; empty: all are independent
   std::vector<Port> ports;       ///< those at nodes, then those of rims
   int N() const { return begin.back(); }
   int n() const { return L.size() == 0 ? N() : static_cast<int>(L.cols()); }
   const Port* port(std::string_view name) const;  ///< nullptr: there is none of this name
-  /// The independent freedom that equals a nodal one, or −1.
+  /// The independent dof that equals a nodal one, or −1.
   int independent_of(int nodal) const { return independent.empty() ? nodal : independent[static_cast<std::size_t>(nodal)]; }
 };
 
-/// Numbers the freedoms of blocks and lumps; no ports yet. A node has a rotation if one of its elements has one there.
+/// Numbers the dofs of blocks and lumps; no ports yet. A node has a rotation if one of its elements has one there.
 /// @throws std::invalid_argument  a node without an element or one that does not exist, a number of elements that does not fit the
 /// properties, a lump's J on a node without rotation
 FeModel fe_model(Eigen::Matrix2Xd x, std::vector<AnyBlock> blocks, std::vector<Lump> lumps = {});
@@ -100,10 +100,10 @@ struct RimPort {
 /// do not determine a rigid motion
 void add_ports(FeModel&, const std::vector<NodePort>&, const std::vector<RimPort>&);
 
-/// An element's freedoms, taken from a nodal field u, N; `node`: its nodes.
+/// An element's dofs, taken from a nodal field u, N; `node`: its nodes.
 template <class E>
-Freedoms<E> gathered(const FeModel& model, const int* node, const Eigen::VectorXd& u) {
-  Freedoms<E> e;
+NodalVector<E> gathered(const FeModel& model, const int* node, const Eigen::VectorXd& u) {
+  NodalVector<E> e;
   for (int k = 0; k < E::nodes; ++k)
     e.template segment<E::dofs_per_node>(k * E::dofs_per_node) =
         u.segment<E::dofs_per_node>(model.begin[static_cast<std::size_t>(node[k])]);
@@ -117,7 +117,7 @@ struct RigidFields {
   Eigen::VectorXd x, R;
 };
 RigidFields rigid_fields(const FeModel&);
-/// The same in independent freedoms, n × 3: translations along x and y, rotation about the origin.
+/// The same in independent dofs, n × 3: translations along x and y, rotation about the origin.
 /// L times these are T and R.
 Eigen::MatrixX3d rigid_motions(const FeModel&);
 /// u = L ũ, N × k, and its transpose applied to forces, which preserves their resultant and moment.

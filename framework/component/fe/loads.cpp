@@ -34,12 +34,12 @@ Eigen::VectorXd sum_sides(const FeModel& model, const std::vector<Cells>& sides,
 }  // namespace
 
 void add_force(Eigen::VectorXd& independent, const Port& port, const Eigen::Vector2d& f, double torque) {
-  if (torque != 0 && port.freedom[2] < 0)
+  if (torque != 0 && port.dof[2] < 0)
     throw std::invalid_argument("port \"" + port.name + "\": torque " + std::to_string(torque) +
                                 " N m, but the port has no rotation; load it by a pair of forces");
-  independent[port.freedom[0]] += f.x();
-  independent[port.freedom[1]] += f.y();
-  if (port.freedom[2] >= 0) independent[port.freedom[2]] += torque;
+  independent[port.dof[0]] += f.x();
+  independent[port.dof[1]] += f.y();
+  if (port.dof[2] >= 0) independent[port.dof[2]] += torque;
 }
 
 Eigen::VectorXd traction_load(const FeModel& model, const std::vector<Cells>& sides, const Eigen::Vector2d& traction, double thickness) {
@@ -68,7 +68,7 @@ Eigen::VectorXd line_load(const FeModel& model, const Eigen::Vector2d& q) {
           if constexpr (is_line<E>) {
             any_line = true;
             for (int i = 0; i < block.size(); ++i) {
-              const Freedoms<E> f = pintle::line_load(block.element(i), block.coords(i, model.x), q);
+              const NodalVector<E> f = pintle::line_load(block.element(i), block.coords(i, model.x), q);
               for (int k = 0; k < E::nodes; ++k) {
                 const int node = block.nodes_of(i)[k];
                 load.segment<E::dofs_per_node>(model.begin[static_cast<std::size_t>(node)]) +=

@@ -5,8 +5,8 @@
 #include "framework/component/fe/fe_model.h"
 #include "meshes/mesh.h"
 
-/// Loads as forces on freedoms. A load over a length, side or body is nodal, N, and consistent: its work on any displacement of the
-/// elements equals that of the load itself. `independent_load` converts it to independent freedoms, which `solve_static` needs. Loads can
+/// Loads as forces on dofs. A load over a length, side or body is nodal, N, and consistent: its work on any displacement of the
+/// elements equals that of the load itself. `independent_load` converts it to independent dofs, which `solve_static` needs. Loads can
 /// be added.
 namespace pintle {
 

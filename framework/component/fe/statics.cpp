@@ -35,12 +35,12 @@ template <class Error, class... Parts>
   throw Error(words.str());
 }
 
-void hold_freedoms(Supports& supports, const int (&freedom)[3], const bool (&held)[3]) {
+void hold_dofs(Supports& supports, const int (&dof)[3], const bool (&held)[3]) {
   for (int d = 0; d < 3; ++d)
-    if (held[d]) supports.freedoms.push_back(freedom[d]);
+    if (held[d]) supports.dofs.push_back(dof[d]);
 }
 
-// Connected parts of the free body: part of each freedom of A.
+// Connected parts of the free body: part of each dof of A.
 int parts(const Sparse& A, std::vector<int>& part) {
   part.assign(static_cast<std::size_t>(A.cols()), -1);
   std::vector<int> open;
@@ -64,14 +64,14 @@ int parts(const Sparse& A, std::vector<int>& part) {
   return count;
 }
 
-// Position of each independent freedom: that of its node or port.
+// Position of each independent dof: that of its node or port.
 Eigen::Matrix2Xd places(const FeModel& model) {
   Eigen::Matrix2Xd at(2, model.n());
   for (Eigen::Index i = 0; i < model.x.cols(); ++i)
     for (int f = model.begin[static_cast<std::size_t>(i)]; f < model.begin[static_cast<std::size_t>(i) + 1]; ++f)
       if (const int k = model.independent_of(f); k >= 0) at.col(k) = model.x.col(i);
   for (const Port& port : model.ports)
-    for (const int f : port.freedom)
+    for (const int f : port.dof)
       if (f >= 0) at.col(f) = port.x;
   return at;
 }
@@ -115,10 +115,10 @@ void validate_supports(const FeModel& model, const Sparse& A, const std::vector<
   const Eigen::MatrixX3d motions = rigid_motions(model);
   std::vector<std::vector<int>> members(static_cast<std::size_t>(count));
   for (int i = 0; i < model.n(); ++i) members[static_cast<std::size_t>(part[static_cast<std::size_t>(i)])].push_back(i);
-  for (const std::vector<int>& freedoms : members) {
-    Vector2d low = at.col(freedoms[0]), high = low;
+  for (const std::vector<int>& dofs : members) {
+    Vector2d low = at.col(dofs[0]), high = low;
     std::vector<int> rows;
-    for (const int i : freedoms) {
+    for (const int i : dofs) {
       low = low.cwiseMin(at.col(i));
       high = high.cwiseMax(at.col(i));
       if (held[static_cast<std::size_t>(i)]) rows.push_back(i);
@@ -143,7 +143,7 @@ void validate_supports(const FeModel& model, const Sparse& A, const std::vector<
 // Inverse iteration on K φ = λ diag(K) φ from a fixed start: the motion with the least stiffness.
 struct Loosest {
   double lambda;
-  Eigen::Index freedom;
+  Eigen::Index dof;
 };
 Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
   VectorXd z(scale.size());
@@ -160,9 +160,9 @@ Loosest loosest(const Factor& factor, const VectorXd& scale, double shift) {
   return {lambda, worst};
 }
 
-[[noreturn]] void fail_mechanism(const FeModel& model, int freedom) {
-  const Vector2d at = places(model).col(freedom);
-  const Eigen::RowVector3d motion = rigid_motions(model).row(freedom);
+[[noreturn]] void fail_mechanism(const FeModel& model, int dof) {
+  const Vector2d at = places(model).col(dof);
+  const Eigen::RowVector3d motion = rigid_motions(model).row(dof);
   const char* name = motion[0] == 1 ? "x" : motion[1] == 1 ? "y" : "rotation";
   fail<std::runtime_error>("the body is supported as a whole, but a part of it moves without resistance, most at (", at.x(), ", ", at.y(),
                            ") in ", name, "; use beams instead of hinged bars, or more bars");
@@ -176,12 +176,12 @@ Factor factored(const FeModel& model, Sparse A, const std::vector<int>& free) {
   if (factor.compute(A)) {
     const Loosest l = loosest(factor, scale, 0);
     if (l.lambda > mechanism) return factor;
-    fail_mechanism(model, free[static_cast<std::size_t>(l.freedom)]);
+    fail_mechanism(model, free[static_cast<std::size_t>(l.dof)]);
   }
   constexpr double shift = 1e-8;
   for (Eigen::Index i = 0; i < A.cols(); ++i) A.coeffRef(i, i) += shift * scale[i];
   if (!factor.compute(A)) fail<std::runtime_error>("the stiffness of the body is not positive; check its material and mesh");
-  fail_mechanism(model, free[static_cast<std::size_t>(loosest(factor, scale, shift).freedom)]);
+  fail_mechanism(model, free[static_cast<std::size_t>(loosest(factor, scale, shift).dof)]);
 }
 
 VectorXd picked(const VectorXd& all, const std::vector<int>& at) {
@@ -200,26 +200,26 @@ void hold(Supports& supports, const FeModel& model, int node, bool x, bool y, bo
   if (turn && size < 3)
     fail<std::invalid_argument>("support: node ", node, " at (", model.x(0, node), ", ", model.x(1, node),
                                 ") has no rotation to hold; hold two nodes apart instead");
-  int freedom[3] = {-1, -1, -1};
-  for (int d = 0; d < size; ++d) freedom[d] = model.independent_of(at + d);
+  int dof[3] = {-1, -1, -1};
+  for (int d = 0; d < size; ++d) dof[d] = model.independent_of(at + d);
   const bool held[3] = {x, y, turn};
   for (int d = 0; d < 3; ++d)
-    if (held[d] && freedom[d] < 0)
+    if (held[d] && dof[d] < 0)
       fail<std::invalid_argument>("support: node ", node, " at (", model.x(0, node), ", ", model.x(1, node),
                                   ") is on a rim that follows its port; hold the port instead");
-  hold_freedoms(supports, freedom, held);
+  hold_dofs(supports, dof, held);
 }
 
 void hold(Supports& supports, const FeModel&, const Port& port, bool x, bool y, bool turn) {
-  if (turn && port.freedom[2] < 0)
+  if (turn && port.dof[2] < 0)
     fail<std::invalid_argument>("support: port \"", port.name, "\" at (", port.x.x(), ", ", port.x.y(),
                                 ") has no rotation to hold; hold two points instead");
-  hold_freedoms(supports, port.freedom, {x, y, turn});
+  hold_dofs(supports, port.dof, {x, y, turn});
 }
 
-std::vector<int> free_freedoms(const FeModel& model, const Supports& supports) {
+std::vector<int> free_dofs(const FeModel& model, const Supports& supports) {
   std::vector<bool> held(static_cast<std::size_t>(model.n()), false);
-  for (const int i : supports.freedoms) held.at(static_cast<std::size_t>(i)) = true;
+  for (const int i : supports.dofs) held.at(static_cast<std::size_t>(i)) = true;
   std::vector<int> free;
   for (int i = 0; i < model.n(); ++i)
     if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
@@ -227,8 +227,8 @@ std::vector<int> free_freedoms(const FeModel& model, const Supports& supports) {
 }
 
 int rigid_motions_left(const FeModel& model, const Supports& supports) {
-  if (supports.freedoms.empty()) return 3;
-  const Eigen::MatrixX3d held = scaled_rigid_motions(model)(supports.freedoms, Eigen::all);
+  if (supports.dofs.empty()) return 3;
+  const Eigen::MatrixX3d held = scaled_rigid_motions(model)(supports.dofs, Eigen::all);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held);
   const VectorXd& size = svd.singularValues();
   return 3 - static_cast<int>((size.array() > held_rank * size[0]).count());
@@ -243,7 +243,7 @@ StaticSolution solve_static(const FeModel& model, const Sparse& K, const Support
   if (!independent_load.allFinite()) fail<std::runtime_error>("load: a number in it is not finite");
   const Sparse A = independent(model, K);
   if (!A.coeffs().allFinite()) fail<std::runtime_error>("the stiffness of the body is not finite; check its material and mesh");
-  const std::vector<int> free = free_freedoms(model, supports);
+  const std::vector<int> free = free_dofs(model, supports);
   std::vector<bool> held(static_cast<std::size_t>(model.n()), true);
   for (const int i : free) held[static_cast<std::size_t>(i)] = false;
   validate_supports(model, A, held);

@@ -7,27 +7,27 @@
 /// Static solutions of a supported body. Theory: docs/theory/couplings.md.
 namespace pintle {
 
-/// Independent freedoms fixed at zero.
+/// Independent dofs fixed at zero.
 struct Supports {
-  std::vector<int> freedoms;
+  std::vector<int> dofs;
 };
 /// @throws std::invalid_argument  the node or port does not exist or has no rotation to fix; a coupling determines the node's motion, so
 /// that only its port can be fixed
 void hold(Supports&, const FeModel&, int node, bool x, bool y, bool turn);
 void hold(Supports&, const FeModel&, const Port&, bool x, bool y, bool turn);
-/// Freedoms that remain free, ascending.
-std::vector<int> free_freedoms(const FeModel&, const Supports&);
+/// Degrees of freedom that remain free, ascending.
+std::vector<int> free_dofs(const FeModel&, const Supports&);
 /// Number of rigid motions of the whole body that the supports allow, 0 to 3.
 int rigid_motions_left(const FeModel&, const Supports&);
 
-/// A static solution, in nodal freedoms or nodes unless stated otherwise.
+/// A static solution, in nodal dofs or nodes unless stated otherwise.
 struct StaticSolution {
   Eigen::VectorXd u;            ///< N [m, rad]
   Eigen::VectorXd independent;  ///< ũ, n, with u = L ũ
-  Eigen::VectorXd reactions;    ///< forces of the supports on the body, independent freedoms, n; zero
+  Eigen::VectorXd reactions;    ///< forces of the supports on the body, independent dofs, n; zero
                                 ///< where free [N, N m]
   double strain_energy = 0;     ///< ½ uᵀKu [J]
-  double residual = 0;          ///< ‖Ku − f‖/‖f‖ over free freedoms, with f including reactions; 0 without load
+  double residual = 0;          ///< ‖Ku − f‖/‖f‖ over free dofs, with f including reactions; 0 without load
 };
 /// Solves K u = f with supports, by CHOLMOD, refined until only rounding is left. K: N × N, nodal. Whether the supports restrain every
 /// rigid motion of each connected part is judged by rank, independently of the factor; other possible motions (hinged bars) by the smallest

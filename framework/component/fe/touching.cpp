@@ -23,33 +23,33 @@ namespace {
 
 constexpr double hardly_held = 1e-4;  // relative size of a motion that contacts or supports restrain
 
-/// Rigid motions, n × r, of similar size, that do not move the fixed freedoms.
+/// Rigid motions, n × r, of similar size, that do not move the fixed dofs.
 MatrixXd motions_left(const FeModel& model, const Supports& supports) {
   MatrixXd all = scaled_rigid_motions(model);
-  if (supports.freedoms.empty()) return all;
-  const MatrixXd held = all(supports.freedoms, Eigen::all);
+  if (supports.dofs.empty()) return all;
+  const MatrixXd held = all(supports.dofs, Eigen::all);
   const Eigen::JacobiSVD<MatrixXd> svd(held, Eigen::ComputeFullV);
   const VectorXd& size = svd.singularValues();
   const Index held_motions = (size.array() > 1e-7 * size[0]).count();
   if (held_motions == 3) return MatrixXd(all.rows(), 0);
   MatrixXd left = all * svd.matrixV().rightCols(3 - held_motions);
-  for (const int f : supports.freedoms) left.row(f).setZero();
+  for (const int f : supports.dofs) left.row(f).setZero();
   return left;
 }
 
 }  // namespace
 
-/// Response of a body to loads in equilibrium, u = G f + Z q, with one additional fixed freedom for each remaining motion.
+/// Response of a body to loads in equilibrium, u = G f + Z q, with one additional fixed dof for each remaining motion.
 class TouchingBodies::Held {
  public:
   explicit Held(const TouchingBody& b) : model(*b.model), K(independent(*b.model, *b.K)), Z(motions_left(*b.model, b.supports)) {
     Supports all = b.supports;
     if (Z.cols() > 0) {
       const Eigen::ColPivHouseholderQR<MatrixXd> qr(Z.transpose());
-      for (Index i = 0; i < Z.cols(); ++i) all.freedoms.push_back(qr.colsPermutation().indices()[i]);
+      for (Index i = 0; i < Z.cols(); ++i) all.dofs.push_back(qr.colsPermutation().indices()[i]);
     }
-    free_ = free_freedoms(model, all);
-    supported_ = b.supports.freedoms;
+    free_ = free_dofs(model, all);
+    supported_ = b.supports.dofs;
     if (!factor_.compute(restricted(K, free_)))
       throw std::runtime_error("the stiffness of a body is not positive; check its material, mesh and supports");
   }
@@ -77,7 +77,7 @@ class TouchingBodies::Held {
   }
 
   const FeModel& model;
-  Sparse K;    ///< independent freedoms
+  Sparse K;    ///< independent dofs
   MatrixXd Z;  ///< remaining motions, n × r
 
  private:

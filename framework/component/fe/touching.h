@@ -37,7 +37,7 @@ class TouchingBodies {
   /// @throws std::runtime_error  a body's stiffness is not positive; contacts cannot restrain a motion that supports leave free
   TouchingBodies(const std::vector<TouchingBody>&, std::vector<TouchingPair>);
   ~TouchingBodies();
-  /// @param loads  independent freedoms of each body [N, N m]
+  /// @param loads  independent dofs of each body [N, N m]
   /// @throws std::runtime_error  the loads pull a body away from everything that could hold it
   TouchingSolution solve(const std::vector<Eigen::VectorXd>& loads) const;
 

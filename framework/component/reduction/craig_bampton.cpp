@@ -63,18 +63,18 @@ Modes fixed_modes(const Component& c, const std::vector<int>& interior, const Ke
 
 ModalModel fixed_interface_modes(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions,
                                  const Keep& keep) {
-  Modes fixed = fixed_modes(c, free_freedoms(c.model, {port_freedoms(c.model, ports)}), keep);
+  Modes fixed = fixed_modes(c, free_dofs(c.model, {port_dofs(c.model, ports)}), keep);
   fixed.shapes = meeting_conditions(c, conditions, fixed.shapes);
   return modal_model(c, conditions, fixed);
 }
 
 ModalModel craig_bampton(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions, const Keep& keep) {
-  const std::vector<int> interface = port_freedoms(c.model, ports);
+  const std::vector<int> interface = port_dofs(c.model, ports);
   const Eigen::MatrixXd C = straining(c, interface);
   // All fixed-interface modes and all static shapes together span the same space as all modes with the reference conditions.
   if (keep.all) return normal_modes(c, conditions, keep);
 
-  const std::vector<int> interior = free_freedoms(c.model, {interface});
+  const std::vector<int> interior = free_dofs(c.model, {interface});
   const Modes fixed = fixed_modes(c, interior, keep);
   Eigen::MatrixXd V(c.model.n(), fixed.shapes.cols() + C.cols());
   V.leftCols(fixed.shapes.cols()) = fixed.shapes;

@@ -14,11 +14,11 @@ using Eigen::VectorXd;
 /// A rim that moves as a rigid ring with its port.
 struct RigidRim {
   Eigen::Index port;
-  std::vector<int> at;  // first freedom of each of its nodes
+  std::vector<int> at;  // first dof of each of its nodes
   Eigen::Matrix2Xd r;   // from the port to each
 };
 
-/// A rigid coupling determines both displacements of each of its nodes; an averaging one determines three freedoms in total, so that some
+/// A rigid coupling determines both displacements of each of its nodes; an averaging one determines three dofs in total, so that some
 /// nodes keep one of two.
 std::vector<RigidRim> rigid_rims(const FeModel& model) {
   std::vector<RigidRim> rims;
@@ -27,7 +27,7 @@ std::vector<RigidRim> rigid_rims(const FeModel& model) {
     RigidRim rim{static_cast<Eigen::Index>(p), {}, {}};
     std::vector<int> nodes;
     bool rigid = true;
-    for (Sparse::InnerIterator l(model.L, port.freedom[0]); rigid && l; ++l) {
+    for (Sparse::InnerIterator l(model.L, port.dof[0]); rigid && l; ++l) {
       const auto above = std::ranges::upper_bound(model.begin, static_cast<int>(l.row()));
       nodes.push_back(static_cast<int>(above - model.begin.begin()) - 1);
       rim.at.push_back(*(above - 1));
@@ -90,7 +90,7 @@ std::vector<std::array<MatrixXd, 2>> port_foreshortening(const Component& c, con
   MatrixXd loads = MatrixXd::Zero(c.model.n(), 2 * static_cast<Eigen::Index>(ports.size()));
   Eigen::Index column = 0;
   for (const Port& port : ports)
-    for (int d = 0; d < 2; ++d) loads(port.freedom[d], column++) = 1;
+    for (int d = 0; d < 2; ++d) loads(port.dof[d], column++) = 1;
   std::vector<MatrixXd> F = foreshortening(c, conditions, modes, loads);
   std::vector<std::array<MatrixXd, 2>> out;
   for (std::size_t i = 0; i < ports.size(); ++i) out.push_back({std::move(F[2 * i]), std::move(F[2 * i + 1])});

@@ -15,11 +15,11 @@ namespace pintle {
 /// accelerated by f. ½ηᵀFη is the work of f on the second-order displacement of its points when the body bends by Φη, so −F is the
 /// geometric stiffness of f. Linear in f; units of f times m/kg. A rigid rim is a rigid piece of the body and shortens as it rotates; loads
 /// on its nodes count as acting at its port. Not included: the stress caused by bending itself; the inclination of beams' fibres.
-/// @param loads  independent freedoms, n × count
+/// @param loads  independent dofs, n × count
 /// @throws std::invalid_argument  as reference_condition_rows; `loads` has another number of rows
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
 std::vector<Eigen::MatrixXd> foreshortening(const Component&, const ReferenceConditions&, const ModalModel&, const Eigen::MatrixXd& loads);
-/// The same for loads with known static responses. @param u  independent freedoms, n × count
+/// The same for loads with known static responses. @param u  independent dofs, n × count
 std::vector<Eigen::MatrixXd> foreshortening_of_response(const Component&, const ModalModel&, const Eigen::MatrixXd& u);
 
 /// The same for inertia loads, about the origin of the body's axes: the data in FlexInertia. With mean axes S is zero: the mass centre does

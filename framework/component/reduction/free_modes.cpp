@@ -15,7 +15,7 @@ Eigen::MatrixXd inertia_relief(const Component& c, const std::vector<int>& loade
 }  // namespace
 
 ModalModel free_modes(const Component& c, const std::vector<int>& ports, const ReferenceConditions& conditions, const Keep& keep) {
-  const std::vector<int> loaded = port_freedoms(c.model, ports);
+  const std::vector<int> loaded = port_dofs(c.model, ports);
   if (keep.all) return normal_modes(c, conditions, keep);  // these are complete
 
   const Modes modes = elastic_modes(c, keep);

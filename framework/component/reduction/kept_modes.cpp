@@ -29,7 +29,7 @@ void check(const Keep& keep) {
     reject("keep: effective mass = ", *share, ", must lie between 0 and 1");
 }
 
-std::vector<int> freedoms_with_mass(const Sparse& M) {
+std::vector<int> dofs_with_mass(const Sparse& M) {
   const Eigen::VectorXd diagonal = M.diagonal();
   std::vector<int> found;
   for (int i = 0; i < diagonal.size(); ++i)
@@ -37,7 +37,7 @@ std::vector<int> freedoms_with_mass(const Sparse& M) {
   return found;
 }
 
-int available(const Problem& p) { return std::max(0, static_cast<int>(freedoms_with_mass(p.M).size()) - p.rigid); }
+int available(const Problem& p) { return std::max(0, static_cast<int>(dofs_with_mass(p.M).size()) - p.rigid); }
 
 Modes elastic(const EigenPairs& pairs, const Problem& p) {
   if (!pairs.converged) throw std::runtime_error("modes of " + p.whose + ": " + pairs.reason);
@@ -74,7 +74,7 @@ Modes below(const Problem& p, double frequency) {
 /// The columns of `carried` are Mr/‖r‖_M for the rigid motions r: the shares are the squares of their products with modes. The sum over all
 /// modes is diag(carriedᵀ M⁻¹ carried).
 void reject_unreachable(const Problem& p, double share, const Eigen::MatrixX3d& carried) {
-  const std::vector<int> massive = freedoms_with_mass(p.M);
+  const std::vector<int> massive = dofs_with_mass(p.M);
   Eigen::Vector3d reach = Eigen::Vector3d::Zero();
   if (!massive.empty()) {
     const Eigen::MatrixXd part = carried(massive, Eigen::all);

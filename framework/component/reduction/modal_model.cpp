@@ -28,8 +28,8 @@ Eigen::MatrixXd at_ports(const FeModel& model, const Eigen::MatrixXd& shapes) {
   if (shapes.cols() == 0) return ports;
   Eigen::Index row = 0;
   for (const Port& port : model.ports)
-    for (const int freedom : port.freedom) {
-      if (freedom >= 0) ports.row(row) = shapes.row(freedom);
+    for (const int dof : port.dof) {
+      if (dof >= 0) ports.row(row) = shapes.row(dof);
       ++row;
     }
   return ports;

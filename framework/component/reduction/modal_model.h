@@ -22,7 +22,7 @@ struct ReferenceConditions {
   int a = -1, b = -1;  ///< indices into FeModel::ports
 };
 
-/// Input of a reduction: the matrices of a model in independent freedoms (n × n, both triangles).
+/// Input of a reduction: the matrices of a model in independent dofs (n × n, both triangles).
 struct Component {
   const FeModel& model;  ///< must outlive the component
   Sparse K, M;
@@ -41,8 +41,8 @@ struct Keep {
   /// In (0, 1): the smallest number of modes whose effective masses in x, in y and in rotation about the mass centre all exceed this share
   /// of the body's mass and inertia. For modes of a supported body; those of a free one have no effective mass.
   std::optional<double> effective_mass = {};
-  /// All modes: as many as the body has freedoms, minus the fixed ones and those without mass, which follow statically. Rejected above
-  /// `most_for_all` freedoms.
+  /// All modes: as many as the body has dofs, minus the fixed ones and those without mass, which follow statically. Rejected above
+  /// `most_for_all` dofs.
   bool all = false;
 };
 
@@ -54,7 +54,7 @@ inline constexpr int most_for_all = 3000;
 /// reference conditions, so rank [T R Φ] = 3 + k. The sign of a shape is fixed: its first component that reaches half of its largest is
 /// positive. k = 0 is a rigid body.
 struct ModalModel {
-  Eigen::MatrixXd shapes;  ///< Φ, nodal freedoms N × k [kg^−½]
+  Eigen::MatrixXd shapes;  ///< Φ, nodal dofs N × k [kg^−½]
   Eigen::MatrixXd ports;   ///< [u_x u_y φ] of each port, φ = 0 where it has no rotation: 3·ports × k
   Eigen::VectorXd omega;   ///< [rad/s], k
   /// ‖Kφ − ω²Mφ − reactions of the reference conditions‖/‖Kφ‖, k: near 0 for true modes, not for static shapes. Tangent and chord
@@ -71,7 +71,7 @@ struct ModalModel {
 /// @throws std::runtime_error     no convergence; parts of the body are not joined
 ModalModel normal_modes(const Component&, const ReferenceConditions&, const Keep&);
 
-/// Craig–Bampton: the static shape of each freedom of the interface ports and the lowest modes with these fixed (`keep` counts those),
+/// Craig–Bampton: the static shape of each dof of the interface ports and the lowest modes with these fixed (`keep` counts those),
 /// transformed to the reference conditions and made diagonal. This gives 3 shapes fewer than static shapes and modes together, since three
 /// combinations are rigid motions. The response to static loads at the ports, in equilibrium or held by the reference conditions at these
 /// ports, is exact. Source: [CraigBampton1968].
@@ -83,7 +83,7 @@ ModalModel craig_bampton(const Component&, const std::vector<int>& ports, const 
 /// @throws as normal_modes, and std::invalid_argument  a port is named twice
 ModalModel fixed_interface_modes(const Component&, const std::vector<int>& ports, const ReferenceConditions&, const Keep&);
 
-/// Modes of the free body (`keep` counts those) and, for each freedom of the ports, the residual attachment shape: the part of the static
+/// Modes of the free body (`keep` counts those) and, for each dof of the ports, the residual attachment shape: the part of the static
 /// response of the freely accelerating body that the kept modes do not represent. A residual shape that the others represent to 1e-10 is
 /// omitted. The static response at the ports, in equilibrium with other loads there or with the body's inertia, is exact. Source:
 /// [CraigChang1977].
@@ -101,7 +101,7 @@ FlexInertia flex_inertia(const FeModel&, const Sparse& M, const Sparse& G, const
 /// Effective mass of each shape along x, y and in rotation about the mass centre: (TᵀMφ)², (RᵀMφ)²; 3 × k [kg, kg, kg m²]. Their sum over
 /// all modes of a body held by B ũ = 0 is
 ///   rᵀMr − (Br)ᵀ(BM⁻¹Bᵀ)⁻¹Br,   r = T and R:
-/// the body's mass and inertia, minus the part that moves only with the fixed freedoms, which vanishes as the mesh is refined. Zero with
+/// the body's mass and inertia, minus the part that moves only with the fixed dofs, which vanishes as the mesh is refined. Zero with
 /// mean axes.
 /// @param M  nodal, N × N
 Eigen::Matrix3Xd effective_mass(const FeModel&, const Sparse& M, const ModalModel&);

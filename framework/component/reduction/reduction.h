@@ -9,7 +9,7 @@
 /// Shared by the reductions; not for use elsewhere.
 namespace pintle {
 
-/// Sparse orthonormal basis of the motions that tangent or chord conditions permit, n × (n − 3): the freedoms that remain free and, at port
+/// Sparse orthonormal basis of the motions that tangent or chord conditions permit, n × (n − 3): the dofs that remain free and, at port
 /// b of a chord, the direction along it.
 /// @pre the conditions are not mean_axes
 Sparse permitted_motions(const Component&, const ReferenceConditions&);
@@ -17,9 +17,9 @@ Sparse permitted_motions(const Component&, const ReferenceConditions&);
 /// V plus the rigid motion for each column that makes it satisfy the reference conditions: V − R (BR)⁻¹ B V.
 Eigen::MatrixXd meeting_conditions(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& V);
 
-/// Freedoms of ports, in their order.
+/// Degrees of freedom of ports, in their order.
 /// @throws std::invalid_argument  a port does not exist or is named twice
-std::vector<int> port_freedoms(const FeModel&, const std::vector<int>& ports);
+std::vector<int> port_dofs(const FeModel&, const std::vector<int>& ports);
 
 /// The modes selected by `keep`.
 struct Modes {

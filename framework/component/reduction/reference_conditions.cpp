@@ -20,7 +20,7 @@ const Port& port_at(const FeModel& model, int index, const std::string& what) {
 
 const Port& turning_port(const FeModel& model, const ReferenceConditions& conditions) {
   const Port& a = port_at(model, conditions.a, "tangent frame: port a");
-  if (a.freedom[2] < 0)
+  if (a.dof[2] < 0)
     throw std::invalid_argument("tangent frame: port \"" + a.name +
                                 "\" cannot turn (a node of plane elements has no rotation); use a port "
                                 "in a hole or on a rim, the chord of two ports, or mean axes");
@@ -43,20 +43,20 @@ Chord chord_of(const FeModel& model, const ReferenceConditions& conditions) {
 
 }  // namespace
 
-std::vector<int> port_freedoms(const FeModel& model, const std::vector<int>& ports) {
-  std::vector<int> freedoms;
+std::vector<int> port_dofs(const FeModel& model, const std::vector<int>& ports) {
+  std::vector<int> dofs;
   std::set<int> seen;
   for (const int p : ports) {
     const Port& port = port_at(model, p, "interface port");
-    for (const int f : port.freedom) {
+    for (const int f : port.dof) {
       if (f < 0) continue;
       if (!seen.insert(f).second)
         throw std::invalid_argument("interface port \"" + port.name +
                                     "\": its degrees of freedom are already in the interface; name each port once");
-      freedoms.push_back(f);
+      dofs.push_back(f);
     }
   }
-  return freedoms;
+  return dofs;
 }
 
 Eigen::MatrixXd reference_condition_rows(const Component& c, const ReferenceConditions& conditions) {
@@ -64,14 +64,14 @@ Eigen::MatrixXd reference_condition_rows(const Component& c, const ReferenceCond
   switch (conditions.kind) {
     case ReferenceConditions::tangent: {
       const Port& a = turning_port(c.model, conditions);
-      for (int k = 0; k < 3; ++k) B(k, a.freedom[k]) = 1;
+      for (int k = 0; k < 3; ++k) B(k, a.dof[k]) = 1;
       break;
     }
     case ReferenceConditions::chord: {
       const Chord chord = chord_of(c.model, conditions);
-      for (int k = 0; k < 2; ++k) B(k, chord.a.freedom[k]) = 1;
-      B(2, chord.b.freedom[0]) = -chord.along.y();
-      B(2, chord.b.freedom[1]) = chord.along.x();
+      for (int k = 0; k < 2; ++k) B(k, chord.a.dof[k]) = 1;
+      B(2, chord.b.dof[0]) = -chord.along.y();
+      B(2, chord.b.dof[1]) = chord.along.x();
       break;
     }
     case ReferenceConditions::mean_axes: {
@@ -94,13 +94,13 @@ Sparse permitted_motions(const Component& c, const ReferenceConditions& conditio
   std::vector<Eigen::Triplet<double>> entries;
   int column = 0;
   if (conditions.kind == ReferenceConditions::tangent) {
-    for (const int f : turning_port(c.model, conditions).freedom) held[static_cast<std::size_t>(f)] = 1;
+    for (const int f : turning_port(c.model, conditions).dof) held[static_cast<std::size_t>(f)] = 1;
   } else {
     const Chord chord = chord_of(c.model, conditions);
     for (int k = 0; k < 2; ++k) {
-      held[static_cast<std::size_t>(chord.a.freedom[k])] = 1;
-      held[static_cast<std::size_t>(chord.b.freedom[k])] = 1;
-      if (chord.along[k] != 0) entries.emplace_back(chord.b.freedom[k], column, chord.along[k]);
+      held[static_cast<std::size_t>(chord.a.dof[k])] = 1;
+      held[static_cast<std::size_t>(chord.b.dof[k])] = 1;
+      if (chord.along[k] != 0) entries.emplace_back(chord.b.dof[k], column, chord.along[k]);
     }
     ++column;
   }

@@ -21,7 +21,7 @@ MatrixXd in_equilibrium(const Component& c, const ReferenceConditions& condition
   return loads - B.transpose() * rB.fullPivLu().solve(r.transpose() * loads);
 }
 
-/// Three freedoms whose fixing holds the body, far enough apart to be well conditioned.
+/// Three dofs whose fixing holds the body, far enough apart to be well conditioned.
 Supports determinate_hold(const FeModel& model) {
   const MatrixXd motions = scaled_rigid_motions(model).transpose();
   const auto order = motions.colPivHouseholderQr().colsPermutation().indices();
@@ -30,7 +30,7 @@ Supports determinate_hold(const FeModel& model) {
 
 }  // namespace
 
-StaticResponse::StaticResponse(const Component& c) : c_(c), moving_(free_freedoms(c.model, determinate_hold(c.model))) {
+StaticResponse::StaticResponse(const Component& c) : c_(c), moving_(free_dofs(c.model, determinate_hold(c.model))) {
   if (!held_.compute(restricted(c.K, moving_)))
     throw std::runtime_error(
         "static response: parts of the body are not joined, or a part of it moves without "

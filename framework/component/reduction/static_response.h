@@ -7,10 +7,10 @@
 
 namespace pintle {
 
-/// Displacement, satisfying the reference conditions, under each column of `loads`, in independent freedoms, n × count: of the body held by
+/// Displacement, satisfying the reference conditions, under each column of `loads`, in independent dofs, n × count: of the body held by
 /// these conditions (tangent, chord) or, with mean axes, of the free body accelerated by the load. For a displacement v that satisfies the
 /// conditions, vᵀK u = vᵀf, so that uᵀf is twice the strain energy.
-/// @param loads  independent freedoms, n × count
+/// @param loads  independent dofs, n × count
 /// @throws std::invalid_argument  as reference_condition_rows; `loads` has another number of rows
 /// @throws std::runtime_error     parts of the body are not joined, or move without resistance
 Eigen::MatrixXd static_response(const Component&, const ReferenceConditions&, const Eigen::MatrixXd& loads);

@@ -75,7 +75,7 @@ int value_of(const Word& word, const Vocabulary& known, Formula& formula) {
   if (word.kind == Word::Kind::number) return formula.constant({word.value, {}});
   if (word.kind == Word::Kind::signal) {
     const SignalName& signal = known.signals->find(name)->second;
-    if (!signal.refused.empty()) throw ExpressionError(name + " " + signal.refused);
+    if (!signal.not_allowed.empty()) throw ExpressionError(name + " " + signal.not_allowed);
     if (!signal.stands_for.empty()) return part_of(word, signal.stands_for, known, formula);
     return formula.input(name, signal.dimension);
   }
@@ -126,7 +126,7 @@ std::string excerpt(std::string_view text) {
   return std::string("\"").append(text.substr(0, shown)).append(cut ? "…\"" : "\"");
 }
 
-[[noreturn]] void refuse(std::string_view text, const ExpressionError& error) {
+[[noreturn]] void fail(std::string_view text, const ExpressionError& error) {
   const std::string place = error.at > 0 ? ", character " + std::to_string(error.at) : "";
   throw ExpressionError(excerpt(text) + place + ": " + error.what());
 }
@@ -187,7 +187,7 @@ Quantity evaluated(std::string_view text, const Vocabulary& known) {
     if (formula.uses_time()) throw ExpressionError("it depends on t, but this value cannot change in time");
     return formula.quantity(root);
   } catch (const ExpressionError& error) {
-    refuse(text, error);
+    fail(text, error);
   }
 }
 
@@ -232,7 +232,7 @@ Law read_law(std::string_view text, const Dimension& expected, const Parameters&
       }
     }
   } catch (const ExpressionError& error) {
-    refuse(text, error);
+    fail(text, error);
   }
 }
 
@@ -246,7 +246,7 @@ MeasuredLaw read_measured_law(std::string_view text, const Parameters& parameter
     if (!law.signals.empty()) law.text = written_out(text, words, known);
     return {std::move(law), formula.quantity(root).dimension};
   } catch (const ExpressionError& error) {
-    refuse(text, error);
+    fail(text, error);
   }
 }
 
@@ -257,7 +257,7 @@ Law read_curve(std::string_view text, std::string_view variable, const Dimension
     const std::vector<Word> words = spell(text, known);
     return law_with(parse(words), text, of, expected, known);
   } catch (const ExpressionError& error) {
-    refuse(text, error);
+    fail(text, error);
   }
 }
 

@@ -190,7 +190,7 @@ class SidedTable final : public SidedLaw {
     const auto [begin, end, shift] = exact_.bounds(side[over_.switches()]);
     const double edge = inside * (std::isfinite(end - begin) ? end - begin : 1), within = std::clamp(x, begin + edge, end - edge);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const bool outside = !std::isfinite(end - begin) && table_.refuses(x);
+    const bool outside = !std::isfinite(end - begin) && table_.rejects(x);
     const Jet f =
         outside ? Jet{none, none, 0} : std::visit([at = within - shift](const auto& samples) { return samples(at); }, table_.table);
     for (std::size_t i = 0; slope && i < table_.over.inputs; ++i) slope[i] *= f.rate;
@@ -240,7 +240,7 @@ class SidedMap final : public SidedLaw {
     const int i = side[line_], j = side[line_ + 1];
     const auto inside = [](int k, const std::vector<double>& x) { return k >= 0 && k < static_cast<int>(x.size()) - 1; };
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const bool outside = (!inside(i, map_.table.grid().a) || !inside(j, map_.table.grid().b)) && map_.refuses(a, b);
+    const bool outside = (!inside(i, map_.table.grid().a) || !inside(j, map_.table.grid().b)) && map_.rejects(a, b);
     const Bilinear::Value f = outside ? Bilinear::Value{none, none, none} : map_.table.on_cell(i, j, a, b);
     for (std::size_t k = 0; slope && k < inputs; ++k) slope[k] = f.by_a * slope[k] + f.by_b * by_b[k];
     return f.value;

@@ -54,17 +54,17 @@ std::string told_beyond(const Ends& ends, double x, const std::string& unit) {
 double SignalTable::operator()(double t, const double* in, double* slope) const {
   double x = over(t, in, slope);
   if (period > 0) x = begin + (x - begin) - period * std::floor((x - begin) / period);
-  if (refuses(x)) return no_number(over.inputs, slope);
+  if (rejects(x)) return no_number(over.inputs, slope);
   const Jet f = std::visit([x](const auto& samples) { return samples(x); }, table);
   if (slope)
     for (std::size_t i = 0; i < over.inputs; ++i) slope[i] *= f.rate;
   return f.value;
 }
 
-bool SignalTable::refuses(double x) const { return outside == Outside::refused && is_beyond(ends_of_table(*this), x); }
+bool SignalTable::rejects(double x) const { return outside == Outside::rejected && is_beyond(ends_of_table(*this), x); }
 
-bool SignalMap::refuses(double a, double b) const {
-  return outside == Outside::refused && (is_beyond(ends_of_numbers(table.grid().a), a) || is_beyond(ends_of_numbers(table.grid().b), b));
+bool SignalMap::rejects(double a, double b) const {
+  return outside == Outside::rejected && (is_beyond(ends_of_numbers(table.grid().a), a) || is_beyond(ends_of_numbers(table.grid().b), b));
 }
 
 double SignalMap::operator()(double t, const double* in, double* slope) const {
@@ -72,7 +72,7 @@ double SignalMap::operator()(double t, const double* in, double* slope) const {
   const std::size_t inputs = std::max(over[0].inputs, over[1].inputs);
   if (slope) std::fill_n(slope, inputs, 0.0);
   const double a = over[0](t, in, slope), b = over[1](t, in, slope ? by_b.data() : nullptr);
-  if (refuses(a, b)) return no_number(inputs, slope);
+  if (rejects(a, b)) return no_number(inputs, slope);
   const Bilinear::Value f = table(a, b);
   if (slope)
     for (std::size_t i = 0; i < inputs; ++i) slope[i] = f.by_a * slope[i] + f.by_b * by_b[i];

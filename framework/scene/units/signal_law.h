@@ -25,7 +25,7 @@ struct SignalFormula {
 
 /// Behaviour of a table outside its samples: it holds the end value, because the scene requests it or by default; or it has no value, which
 /// ends the run with a message that names the law.
-enum class Outside { holds, holds_unasked, refused };
+enum class Outside { holds, holds_unasked, rejected };
 
 /// A table as a function of a formula: the derivatives of f(x(in)) are f′ ∂x/∂in.
 struct SignalTable {
@@ -35,17 +35,17 @@ struct SignalTable {
   Outside outside = Outside::holds;
   std::string unit = {};  ///< unit of its argument, in SI
   double operator()(double t, const double* in, double* slope) const;
-  bool refuses(double x) const;
+  bool rejects(double x) const;
 };
 
 /// A table as a function of two formulas with the same inputs, bilinear between its values.
 struct SignalMap {
   Bilinear table;
   std::array<SignalFormula, 2> over;
-  Outside outside = Outside::refused;
+  Outside outside = Outside::rejected;
   std::array<std::string, 2> units = {};  ///< likewise
   double operator()(double t, const double* in, double* slope) const;
-  bool refuses(double a, double b) const;
+  bool rejects(double a, double b) const;
 };
 
 /// The range of a table, if `in` is outside a table with this behaviour: "it is read at 2 m, and goes from 0 to 1 m"; otherwise empty.

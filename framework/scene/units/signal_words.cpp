@@ -197,15 +197,15 @@ SignalNames signal_names(const std::map<std::string, SignalWord, std::less<>>& w
   SignalNames out;
   for (const auto& [name, word] : words) {
     SignalName& known = out[name] = {word.dimension, ""};
-    if (word.what == What::work_rate && word.text.empty()) known.refused = no_work;
+    if (word.what == What::work_rate && word.text.empty()) known.not_allowed = no_work;
     if (use == SignalUse::written) {
       known.stands_for = word.text;
       continue;
     }
-    if (word.what == What::work_rate && !word.text.empty()) known.refused = feedback;
-    if (word.what == What::column) known.refused = feedback;
+    if (word.what == What::work_rate && !word.text.empty()) known.not_allowed = feedback;
+    if (word.what == What::column) known.not_allowed = feedback;
     if (word.what == What::output)
-      known.refused = "is an output, which only outputs and conditions of events may name: write its expression here";
+      known.not_allowed = "is an output, which only outputs and conditions of events may name: write its expression here";
   }
   return out;
 }

@@ -200,7 +200,7 @@ void Speller::refuse_dotted() const {
   if (!known_.signals) fail("\"" + name + "\" changes with the motion, but this value cannot: write numbers, units and parameters");
   std::vector<std::string> names;
   for (const auto& [known, what] : *known_.signals)
-    if (what.refused.empty()) names.push_back(known);
+    if (what.not_allowed.empty()) names.push_back(known);
   const std::string owner = name.substr(0, name.rfind('.') + 1);
   const std::vector<std::string> columns = columns_of(names, owner);
   const bool joint = known_.signals->contains(owner + "angle") && known_.signals->contains(owner + "fx");

@@ -15,8 +15,8 @@ using Parameters = std::map<std::string, Quantity, std::less<>>;
 /// A signal of the motion that expressions may name.
 struct SignalName {
   Dimension dimension;
-  std::string refused = {};     ///< why it is not allowed here; empty: it is allowed
-  std::string stands_for = {};  ///< the expression that replaces it; empty: it has a value of its own
+  std::string not_allowed = {};  ///< why it is not allowed here; empty: it is allowed
+  std::string stands_for = {};   ///< the expression that replaces it; empty: it has a value of its own
 };
 using SignalNames = std::map<std::string, SignalName, std::less<>>;
 

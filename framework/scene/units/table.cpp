@@ -289,13 +289,13 @@ Jet Spline::operator()(double t) const {
           (yb - ya) / h + ((1 - 3 * a * a) * ma + (3 * b * b - 1) * mb) * h / 6, a * ma + b * mb};
 }
 
-std::optional<Swing> worst_swing(const Spline& spline) {
+std::optional<Overshoot> worst_overshoot(const Spline& spline) {
   constexpr double noticed = 0.01;
   constexpr int looks = 16;
   const std::vector<double>&t = spline.samples().t, &y = spline.samples().value;
   const auto [least, most] = std::ranges::minmax(y);
   const auto rise = [&](std::size_t i) { return y[i + 1] - y[i]; };
-  Swing worst{0, 0, noticed * (most - least)};
+  Overshoot worst{0, 0, noticed * (most - least)};
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
     if (i > 0 && rise(i - 1) * rise(i) < 0) continue;  // at an extremum of the samples the spline may have its own between them
     if (i + 2 < t.size() && rise(i) * rise(i + 1) < 0) continue;

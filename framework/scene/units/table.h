@@ -70,12 +70,12 @@ class Spline {
 };
 
 /// Overshoot: a spline exceeds the two adjacent samples although the samples there rise, fall or are constant.
-struct Swing {
+struct Overshoot {
   double begin, end;  ///< between these two
   double by;          ///< largest overshoot
 };
 /// The largest overshoot above a hundredth of the samples' range.
-std::optional<Swing> worst_swing(const Spline&);
+std::optional<Overshoot> worst_overshoot(const Spline&);
 
 /// Linear between samples; the rate jumps at each. Outside it holds the end value.
 class Polyline {

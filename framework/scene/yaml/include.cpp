@@ -63,8 +63,8 @@ class Inclusion {
     fs::path path;
     try {
       path = contained_file(name, source_.folder / beside, source_.folder);
-    } catch (const FileRefused& refused) {
-      named.fail(refused.what());
+    } catch (const FileRejected& rejected) {
+      named.fail(rejected.what());
     }
     if (!fs::exists(path)) named.fail("there is no file \"" + name.string() + "\"; its path is relative to the file that names it");
     path = fs::weakly_canonical(path);

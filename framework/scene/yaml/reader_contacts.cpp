@@ -78,7 +78,7 @@ std::vector<Pair> read_points(const Node& law) {
   std::filesystem::path path;
   try {
     path = contained_file(file.file("the name of a file beside the scene"), law.source().folder);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     file.fail(rejected.what());
   }
   const Samples samples = read_samples(path, depth_unit, force_unit, file.place().key, "depth");

@@ -121,7 +121,7 @@ Law read_curve_table(const Node& node, const Dimension& expected, const std::str
   std::filesystem::path path;
   try {
     path = contained_file(file, node.source().folder);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     node.at("table").fail(rejected.what());
   }
   const Samples samples = read_samples(path, angle_unit, value_unit, node.place().key, "angle");

@@ -120,7 +120,7 @@ SceneFile read_file(const Node& plate) {
   fs::path path;
   try {
     path = contained_file(file.path, fs::path(node.source().file).parent_path());
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     node.fail(rejected.what());
   }
   if (!fs::exists(path)) node.fail("there is no file " + path.string() + "; check the path");

@@ -56,7 +56,7 @@ std::filesystem::path file_of(const Node& group) {
   const Node file = group.at("file");
   try {
     return contained_file(file.file("the name of a file beside the scene"), group.source().folder);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     file.fail(rejected.what());
   }
 }

@@ -102,7 +102,7 @@ void must_close(const Node& node, const Samples& samples) {
 
 Outside read_outside(const Node& node, std::string_view keys, Outside otherwise) {
   if (!node.has("outside")) return otherwise;
-  return node.at("outside").one_of(choices(keys, "outside")) == "hold" ? Outside::holds : Outside::refused;
+  return node.at("outside").one_of(choices(keys, "outside")) == "hold" ? Outside::holds : Outside::rejected;
 }
 
 // Checks a table without `over`.
@@ -144,7 +144,7 @@ Law read_signal_map(const Node& node, std::string_view keys, const Dimension& ex
   if (out.signals.empty()) node.at("over").fail("names no signal; write one such as crank.speed in one of its expressions");
   if (out.signals.size() > most_signals) node.at("over").fail("names more than " + std::to_string(most_signals) + " signals");
   const double value_unit = unit_factor(node, "value unit", expected);
-  const Outside outside = read_outside(node, keys, Outside::refused);
+  const Outside outside = read_outside(node, keys, Outside::rejected);
   Grid grid = read_grid(table_file(node, folder), {axes[0].unit, axes[1].unit, value_unit}, node.place().key, {axes[0].text, axes[1].text});
   out.text = signal_table_text(node, axes, "linear", false, outside, value_unit, si_unit(expected));
   out.of_signals = SignalMap{
@@ -249,7 +249,7 @@ const SignalNames& ActingSignals::names() {
   names_ = signal_names(signal_words(scene_), SignalUse::acts);
   for (const SceneOutput& made : scene_.outputs) {  // outputs of states such as PID controllers; the scene's own are read later
     SignalName& name = names_->find(made.name)->second;
-    name.refused.clear();
+    name.not_allowed.clear();
     name.stands_for = made.law.text;
   }
   if (root_.has("outputs") && root_.at("outputs").is_map())

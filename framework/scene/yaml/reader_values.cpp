@@ -94,7 +94,7 @@ std::filesystem::path table_file(const Node& node, const std::filesystem::path& 
   fs::path path;
   try {
     path = contained_file(file, folder);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     named.fail(rejected.what());
   }
   std::error_code error;

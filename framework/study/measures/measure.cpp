@@ -70,8 +70,8 @@ class Measuring {
   double statistic(const Signal& x, double from, double to) const {
     if (asked_.frequency) return dominant_frequency(x);
     switch (asked_.statistic) {
-      case Statistic::greatest: return told(with_impacts(greatest(x), from, to));
-      case Statistic::least: return told(least(x));
+      case Statistic::greatest: return value_or_time(with_impacts(greatest(x), from, to));
+      case Statistic::least: return value_or_time(least(x));
       case Statistic::range: return with_impacts(greatest(x), from, to).value - least(x).value;
       case Statistic::mean: return mean(x);
       case Statistic::rms: return rms(x);
@@ -80,9 +80,9 @@ class Measuring {
     }
     const Extreme high = with_impacts(greatest(x), from, to), low = least(x);
     const bool below = std::abs(low.value) > std::abs(high.value);
-    return told({std::max(std::abs(high.value), std::abs(low.value)), below ? low.at : high.at});
+    return value_or_time({std::max(std::abs(high.value), std::abs(low.value)), below ? low.at : high.at});
   }
-  double told(const Extreme& e) const { return asked_.time_of ? e.at : e.value; }
+  double value_or_time(const Extreme& e) const { return asked_.time_of ? e.at : e.value; }
 
   bool concerns(const Impact& i) const {
     return asked_.owner.empty() || model_.system.contact_names[static_cast<std::size_t>(i.contact)] == asked_.owner;

@@ -44,17 +44,17 @@ std::string read_curve(const fs::path& folder, const std::pair<const std::string
   constexpr std::size_t most_bytes = std::size_t{1} << 30;
   const fs::path path = curves_in(folder) / noted.first;
   std::error_code error;
-  if (!fs::exists(path, error)) throw FileRefused("is missing");
-  if (!fs::is_regular_file(path, error)) throw FileRefused("is not an ordinary file");
+  if (!fs::exists(path, error)) throw FileRejected("is missing");
+  if (!fs::is_regular_file(path, error)) throw FileRejected("is not an ordinary file");
   std::string text = read_file(path, most_bytes);
-  if (fingerprint_text(fingerprint(text)) != noted.second) throw FileRefused("is not as its case wrote it: it was cut off or changed");
+  if (fingerprint_text(fingerprint(text)) != noted.second) throw FileRejected("is not as its case wrote it: it was cut off or changed");
   return text;
 }
 
 std::string fault_of_curves(const fs::path& folder, const Row& row) {
   for (const auto& noted : row.curves) try {
       read_curve(folder, noted);
-    } catch (const FileRefused& why) {
+    } catch (const FileRejected& why) {
       return (curves_in(folder) / noted.first).string() + " " + why.what();
     }
   return {};

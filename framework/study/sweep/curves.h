@@ -21,7 +21,7 @@ void write_curves(const std::map<std::string, std::string>& curves, const std::f
 
 /// The text of a curve, unchanged since its case wrote it.
 /// @param noted  an entry of Row::curves
-/// @throws FileRefused  it is missing, incomplete, changed or no ordinary file; the message ("is missing") does not name it
+/// @throws FileRejected  it is missing, incomplete, changed or no ordinary file; the message ("is missing") does not name it
 std::string read_curve(const std::filesystem::path& folder, const std::pair<const std::string, std::string>& noted);
 
 /// The fault of the first faulty curve of a case, with its name: "FOLDER/curves/case-3.csv is missing". Empty: there is none.

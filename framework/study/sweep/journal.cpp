@@ -98,7 +98,7 @@ bool validate_heading(const fs::path& path, const std::string& text, std::uint64
 std::string contents(const fs::path& path, const std::string& remedy) {
   try {
     return read_file(path, std::numeric_limits<std::size_t>::max());
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     throw SceneError(path.string() + ": " + rejected.what() + "; " + remedy);
   }
 }

@@ -29,7 +29,7 @@ std::string text_in_part(const fs::path& path) {
   constexpr std::size_t most_bytes = std::size_t{1} << 30;
   try {
     return read_file(path, most_bytes);
-  } catch (const FileRefused& rejected) {
+  } catch (const FileRejected& rejected) {
     throw SceneError(path.string() + ": " + rejected.what() + "; run this part again, which rewrites the file");
   }
 }

@@ -39,7 +39,7 @@ std::string text_or_nothing(const fs::path& path) {
   constexpr std::size_t most_bytes = std::size_t{100} << 20;
   try {
     return read_file(path, most_bytes);
-  } catch (const FileRefused&) {
+  } catch (const FileRejected&) {
     return {};  // then it differs from the stored file
   }
 }

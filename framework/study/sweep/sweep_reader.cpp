@@ -25,7 +25,7 @@ std::optional<std::string> file_named(const std::string& text, const fs::path& f
     const fs::path path = contained_file(text, folder);
     std::error_code error;
     if (fs::is_regular_file(path, error)) return read_file(path, most_file_bytes);
-  } catch (const FileRefused&) {  // reported where it is read
+  } catch (const FileRejected&) {  // reported where it is read
   }
   return {};
 }

@@ -83,8 +83,8 @@ void validate_settings(const StudyFile& study, const TradePlan& plan) {
 }
 
 std::vector<std::string> own_columns() {
-  return {"setting", "status",      "time",  "least time",          "most time", "timed runs", "build",
-          "steps",   "evaluations", "error", "error not told from", "role",      "reason"};
+  return {"setting", "status",      "time",  "least time",       "most time", "timed runs", "build",
+          "steps",   "evaluations", "error", "error resolution", "role",      "reason"};
 }
 
 void validate_measures(const CaseSource& source, const TradePlan& plan, const std::vector<Measure>& measures) {

@@ -104,7 +104,7 @@ std::string tradeoff_csv(const TradeReport& r) {
     out += "," + csv_field(name + (r.units[q].empty() ? "" : " [" + r.units[q] + "]")) + "," + csv_field("error of " + name) + "," +
            csv_field("reference's error of " + name) + "," + csv_field("model's error of " + name);
   }
-  out += ",error,error not told from,role,reason\n";
+  out += ",error,error resolution,role,reason\n";
   for (std::size_t i = 0; i < r.points.size(); ++i) {
     const TradePoint& p = r.points[i];
     const bool ran = p.steps > 0;

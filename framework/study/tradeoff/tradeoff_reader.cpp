@@ -100,7 +100,8 @@ TradePlan read_tradeoff(const StudyFile& study) {
     all *= static_cast<double>(plan.axes.back().values.size());
   }
   if (plan.axes.empty()) node.at("axes").fail("names no axis; write for example {tolerance: {run.tolerance: [1e-4, 1e-6]}}");
-  if (all > 20000) node.at("axes").fail("make " + std::to_string(static_cast<long>(all)) + " combinations; more than 20000 are refused");
+  if (all > 20000)
+    node.at("axes").fail("make " + std::to_string(static_cast<long>(all)) + " combinations; more than 20000 are not allowed");
   if (node.has("reference"))
     for (const Node& set : node.at("reference").entries("what the reference sets: {run.tolerance: 1e-12}"))
       plan.reference.emplace_back(set.name(), override_text(entry(entry(tree, "reference"), set.name())));

@@ -46,7 +46,7 @@ TEST(Equilibrium, APendulumComesToHangBelowItsPivot) {
   EXPECT_NEAR(f.value("rod.fy on bob [N]"), 9.81, solved * 9.81);
   EXPECT_EQ(f.rest.stability.unstable, 0);
   EXPECT_EQ(f.rest.stability.neutral, 0);
-  EXPECT_EQ(f.rest.stability.freedoms, 1);
+  EXPECT_EQ(f.rest.stability.dofs, 1);
 }
 
 TEST(Equilibrium, AnUprightStartIsKeptAndReportedUnstable) {
@@ -94,7 +94,7 @@ TEST(Equilibrium, AHangingChainTakesTheShapeOfItsFunicular) {
   for (int j = 0; j < n; ++j) EXPECT_NEAR(f.value("link " + std::to_string(j) + ".angle [rad]"), angle(low, j), 1e-9) << j;
   EXPECT_NEAR(std::abs(f.value("last pin.fx on link 11 [N]")), low, 1e-9 * low);
   EXPECT_EQ(f.rest.stability.unstable, 0);
-  EXPECT_EQ(f.rest.stability.freedoms, n - 2);
+  EXPECT_EQ(f.rest.stability.dofs, n - 2);
 }
 
 // A spring without free length from (d, h) to the lever's middle: its moment is k a (h cos θ − d sin θ), and the
@@ -141,7 +141,7 @@ TEST(Equilibrium, AThreeHingedArchCarriesItsThrust) {
   EXPECT_NEAR(f.value("foot.fx on left [N]"), load * half / (2 * rise), 1e-9 * load);
   EXPECT_NEAR(f.value("foot.fy on left [N]"), load / 2, 1e-9 * load);
   EXPECT_NEAR(f.value("other foot.fx on right [N]"), -load * half / (2 * rise), 1e-9 * load);
-  EXPECT_EQ(f.rest.stability.freedoms, 0);
+  EXPECT_EQ(f.rest.stability.dofs, 0);
 }
 
 TEST(Equilibrium, ADriverHoldsWithTheTorqueOfTheInstantAskedFor) {

@@ -149,7 +149,7 @@ TEST(Linearize, WhatNothingHoldsIsNamedZeroBesideStiffModes) {
     roots += m.roots;
     EXPECT_EQ(m.root, 0.0);
   }
-  EXPECT_EQ(roots, 10);  // of 12: but for the stretch, all six freedoms are free
+  EXPECT_EQ(roots, 10);  // of 12: but for the stretch, all six dofs are free
   const std::vector<double> f = a.frequencies();
   ASSERT_EQ(f.size(), 1U);
   EXPECT_NEAR(f[0], std::sqrt(3e9 * (1 + 1.0 / 3)), rounding * f[0]);

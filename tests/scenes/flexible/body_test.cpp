@@ -147,7 +147,7 @@ TEST(BadBody, StaticsWithoutSupportsOrWithTooFewAreRefused) {
               {"test.yaml", "rod", "turn"});
 }
 
-TEST(BadBody, MoreModesThanFreedomsAreRefusedWithBothNumbers) {
+TEST(BadBody, MoreModesThanDegreesOfFreedomAreRefusedWithBothNumbers) {
   const std::string text = "bodies:\n  rod:\n    beam: {from: A, to: B, section: {circle: 0.1}, elements: 1, " + steel +
                            "}\n    points: {A: [0, 0], B: [2, 0]}\n";
   expect_says(complaint(text, ".", 9), {"rod", "9", "3"});

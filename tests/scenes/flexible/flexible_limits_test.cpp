@@ -68,14 +68,14 @@ struct Shake {
   }
 };
 
-/// Displacement of port b of a body held at port a, in all its freedoms by Newmark's average
+/// Displacement of port b of a body held at port a, in all its dofs by Newmark's average
 /// acceleration, at rest at t = 0; every h, 2 × count + 1.
 Eigen::Matrix2Xd newmark(const pintle::ElasticBody& e, const std::string& a, const std::string& b, const Shake& shake, double h,
                          int count) {
   const MatrixXd K = MatrixXd(pintle::independent(e.model, e.K)), M = MatrixXd(pintle::independent(e.model, e.M));
-  const auto& held = e.model.port(a)->freedom;
-  const auto& shaken = e.model.port(b)->freedom;
-  MatrixXd V = MatrixXd::Identity(K.rows(), K.cols() - 3);  // freedoms that are not held
+  const auto& held = e.model.port(a)->dof;
+  const auto& shaken = e.model.port(b)->dof;
+  MatrixXd V = MatrixXd::Identity(K.rows(), K.cols() - 3);  // dofs that are not held
   Eigen::Index n = 0;
   for (int i = 0; i < K.rows(); ++i)
     if (std::find(held, held + 3, i) == held + 3) V.col(n++) = VectorXd::Unit(K.rows(), i);

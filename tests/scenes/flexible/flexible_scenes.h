@@ -45,7 +45,7 @@ struct FlexibleBeam {
 std::string text(const FlexibleBeam&);
 
 /// Keys of a plate 0.21 m × 0.03 m with a waist and two oblong holes, 0.12 m apart along x: A, a
-/// rigid ring at the origin, and B, of soft rim. 64 nodal freedoms; its mesh is written to a file.
+/// rigid ring at the origin, and B, of soft rim. 64 nodal dofs; its mesh is written to a file.
 std::string holed_plate(const std::string& modes, const std::string& more = "");
 
 /// Largest distance between where two runs put a recorded point at the same output.

@@ -181,7 +181,7 @@ TEST(PaperSliderCrank, EccentricityAndSlidingAreThoseOfMinimalCoordinates) {
             force_in_contact);
 }
 
-// --- without clearance: one freedom, no impacts to magnify anything ---
+// --- without clearance: one dof, no impacts to magnify anything ---
 
 constexpr double smooth = 1e-9;  // a hundred times the tolerance below, over some revolutions
 

@@ -1,4 +1,4 @@
-// examples/knuckle_press.yaml against an integration of its one freedom.
+// examples/knuckle_press.yaml against an integration of its one dof.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// examples/rear_suspension.yaml against an integration of its two freedoms, the road's arcs and lines by hand.
+// examples/rear_suspension.yaml against an integration of its two dofs, the road's arcs and lines by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -85,7 +85,7 @@ TEST_P(Couplings, TheCoupledMatrixIsLtALAndKeepsOnePattern) {
   }
 }
 
-TEST_P(Couplings, IndependentFreedomsAreTheNodalOnesThatStayThenThePorts) {
+TEST_P(Couplings, IndependentDegreesOfFreedomAreTheNodalOnesThatStayThenThePorts) {
   const Ring r = ported_ring(GetParam());
   const FeModel& m = r.model;
   const auto gone = GetParam() == Coupling::rigid ? 2 * static_cast<int>(r.rim.nodes.size()) : 3;
@@ -97,12 +97,12 @@ TEST_P(Couplings, IndependentFreedomsAreTheNodalOnesThatStayThenThePorts) {
     }
   const Port* eye = m.port("eye");
   ASSERT_NE(eye, nullptr);
-  for (int d = 0; d < 3; ++d) EXPECT_EQ(eye->freedom[d], next + d);
+  for (int d = 0; d < 3; ++d) EXPECT_EQ(eye->dof[d], next + d);
   const Port* node = m.port("rim of the plate");
   ASSERT_NE(node, nullptr);
-  EXPECT_EQ(node->freedom[2], -1);
+  EXPECT_EQ(node->dof[2], -1);
   EXPECT_EQ(m.port("ear"), nullptr);
-  // A freedom that stays is itself in u = L ũ.
+  // A dof that stays is itself in u = L ũ.
   const VectorXd free = random_vector(m.n(), 5), u = nodal(m, free);
   for (int i = 0; i < m.N(); ++i)
     if (const int k = m.independent_of(i); k >= 0) {
@@ -113,7 +113,7 @@ TEST_P(Couplings, IndependentFreedomsAreTheNodalOnesThatStayThenThePorts) {
 TEST(RigidCoupling, TheRimMovesAsARingAboutItsPort) {
   const Ring r = ported_ring(Coupling::rigid, CellShape::quadrilateral8, {0.03, -0.02});
   const VectorXd free = random_vector(r.model.n(), 11), u = nodal(r.model, free);
-  const int* f = r.model.port("eye")->freedom;
+  const int* f = r.model.port("eye")->dof;
   for (const int node : r.rim.nodes) {
     const Vector2d arm = r.model.x.col(node) - r.rim.x;
     const Vector2d expected = Vector2d(free[f[0]], free[f[1]]) + free[f[2]] * Vector2d(-arm.y(), arm.x());
@@ -124,7 +124,7 @@ TEST(RigidCoupling, TheRimMovesAsARingAboutItsPort) {
 TEST(RigidCoupling, BeamsOnARimTurnWithIt) {
   FeModel m = chain(beam, 4, {0, 0}, {1, 0});
   add_ports(m, {}, {{"clamp", {0.1, 0.05}, {0, 1}, {1, 1}, Coupling::rigid}});
-  const VectorXd u = nodal(m, VectorXd::Unit(m.n(), m.port("clamp")->freedom[2]));
+  const VectorXd u = nodal(m, VectorXd::Unit(m.n(), m.port("clamp")->dof[2]));
   EXPECT_EQ(u[2], 1);
   EXPECT_EQ(u[5], 1);
   EXPECT_NEAR(u[4], 0.15, rounding);  // node 1 at (0.25, 0): φ · (0.25 − 0.1)
@@ -147,8 +147,8 @@ TEST(AverageCoupling, ThePortMovesAsTheRimDoesInWeightedLeastSquares) {
       b.segment<2>(2 * i) = w * u.segment<2>(2 * node);
     }
     const Vector3d motion = B.householderQr().solve(b);
-    const int* f = r.model.port("eye")->freedom;
-    // The given freedoms are differences of k others: k times rounding, over the radius for
+    const int* f = r.model.port("eye")->dof;
+    // The given dofs are differences of k others: k times rounding, over the radius for
     // turning.
     for (int d = 0; d < 3; ++d) EXPECT_NEAR(motion[d], free[f[d]], 1e-11);
   }
@@ -158,7 +158,7 @@ TEST(AverageCoupling, TwoNodesAreRimEnough) {
   FeModel m = model_of(plate(1, 1, CellShape::quadrilateral4, rectangle(1, 1)), steel(PlaneState::stress));
   add_ports(m, {}, {{"pair", {0.5, 0}, {0, 1}, {1, 1}, Coupling::average}});
   const VectorXd free = random_vector(m.n(), 17), u = nodal(m, free);
-  const int* f = m.port("pair")->freedom;
+  const int* f = m.port("pair")->dof;
   EXPECT_NEAR((u[0] + u[2]) / 2, free[f[0]], rounding);
   EXPECT_NEAR((u[1] + u[3]) / 2, free[f[1]], rounding);
   EXPECT_NEAR(u[3] - u[1], free[f[2]], rounding);
@@ -212,7 +212,7 @@ TEST(Ports, NodesAloneLeaveEveryFreedomItsOwn) {
   add_ports(m, {{"A", 2}}, {});
   EXPECT_EQ(m.L.size(), 0);
   EXPECT_EQ(m.n(), m.N());
-  EXPECT_EQ(m.port("A")->freedom[2], 8);
+  EXPECT_EQ(m.port("A")->dof[2], 8);
   const Sparse K = Assembler(m).stiffness();
   EXPECT_EQ(largest(MatrixXd(independent(m, K) - K)), 0);
 }

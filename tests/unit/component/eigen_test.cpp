@@ -130,7 +130,7 @@ TEST(EigenLowest, SolvesForAQuarterOfAMiddlingBody) {
             same);
 }
 
-TEST(EigenLowest, FreedomsWithoutMassFollowStatically) {
+TEST(EigenLowest, DegreesOfFreedomWithoutMassFollowStatically) {
   // Every second mass removed: the springs on either side act in series, a chain of half the
   // stiffness.
   for (int n : {41, 1601}) {

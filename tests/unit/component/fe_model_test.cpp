@@ -116,7 +116,7 @@ TEST_P(Bodies, MatricesAreTheSumsOfTheirElements) {
         lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) { return MatrixXd(lumped_mass(e, x).asDiagonal()); }));
   agree(assembler.skew_mass(), skew_lumps + written_out(m, [](const auto& e, const auto& x, const MatrixXd&) { return skew_mass(e, x); }));
   agree(assembler.geometric_stiffness(u), written_out(m, [&]<class E>(const E& e, const Coords<E>& x, const MatrixXd& gather) {
-          return geometric_stiffness(e, x, stress(e, x, Freedoms<E>(gather * u)));
+          return geometric_stiffness(e, x, stress(e, x, NodalVector<E>(gather * u)));
         }));
 }
 

@@ -212,12 +212,12 @@ TEST(RigidRim, ShortensAsTheRigidPieceThatItIs) {
 // ---- mean axes ----
 
 // Held by nothing, pulled at both ends by P in a fixed direction: the turn of the frame sees P L
-// and what the ends move across. Beside it stands the eigenvalue problem of all nodal freedoms.
-TEST(FreeBeam, UnderOppositePullsIsThatOfNodalFreedoms) {
+// and what the ends move across. Beside it stands the eigenvalue problem of all nodal dofs.
+TEST(FreeBeam, UnderOppositePullsIsThatOfNodalDegreesOfFreedom) {
   const int elements = 30;
   const double pull = 40;
   const Chain<BeamEuler> direct = chain(unit_beam, elements, 1.0);
-  const Freedom bends = bending(direct.dofs(), {});
+  const Dofs bends = bending(direct.dofs(), {});
   const MatrixXd K = kept(direct.K() + direct.K_g([=](double) { return pull; }), bends);
   const VectorXd expected = Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, kept(direct.M(), bends)).eigenvalues();
 
@@ -230,7 +230,7 @@ TEST(FreeBeam, UnderOppositePullsIsThatOfNodalFreedoms) {
   A.bottomRightCorner(k, k) = body.stiffness() - pull * (body.at(1)[0] - body.at(0)[0]);
   A.block(0, 1, 1, k) = pull / std::sqrt(J) * (body.modes.ports.row(4) - body.modes.ports.row(1));
   const VectorXd ours = eigenvalues(A.selfadjointView<Eigen::Upper>());
-  // Nodal freedoms have one motion more, along y, which nothing resists.
+  // Nodal dofs have one motion more, along y, which nothing resists.
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(ours[i], expected[i + 1], through_statics * expected[4]) << i;
 }
 

@@ -32,7 +32,7 @@ constexpr double rounding = 1e-12;
 // Central differences over 1e-4 of a turn: cut-off 1e-8 of third derivatives, rounding 1e-12.
 constexpr double difference = 1e-6;
 
-/// A bit of material: dm, where it lies, and its displacement for each nodal freedom.
+/// A bit of material: dm, where it lies, and its displacement for each nodal dof.
 struct Particle {
   double m;
   Vector2d x;
@@ -82,7 +82,7 @@ void add_plane(std::vector<Particle>& all, const FeModel& model, const Block<E>&
     const E& e = block.element(i);
     const Coords<E> x = block.coords(i, model.x);
     const MatrixXd u = element_shapes(model, block, i, phi);
-    Freedoms<E> position;
+    NodalVector<E> position;
     for (int k = 0; k < E::nodes; ++k) position.template segment<2>(2 * k) = x.col(k);
     const auto at = [&](const Vector2d& xi) -> Vector2d { return shape(e, x, xi) * position; };
     for (int g = 0; g < 25; ++g) {
@@ -117,7 +117,7 @@ void add_lump(std::vector<Particle>& all, const FeModel& model, const Lump& lump
 template <class E>
 void add_lumped(std::vector<Particle>& all, const FeModel& model, const Block<E>& block, const MatrixXd& phi) {
   for (int i = 0; i < block.size(); ++i) {
-    const Freedoms<E> m = lumped_mass(block.element(i), block.coords(i, model.x));
+    const NodalVector<E> m = lumped_mass(block.element(i), block.coords(i, model.x));
     for (int k = 0; k < E::nodes; ++k) {
       const int f = k * E::dofs_per_node;
       const int node = block.nodes[static_cast<std::size_t>(i * E::nodes + k)];

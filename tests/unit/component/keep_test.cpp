@@ -76,7 +76,7 @@ TEST(Keep, ByEffectiveMassTakesTheFewestModesThatExceedTheShare) {
   }
 }
 
-TEST(Keep, AllGivesAsManyShapesAsFreedomsLessThree) {
+TEST(Keep, AllGivesAsManyShapesAsDegreesOfFreedomLessThree) {
   for (const SampleBody& body : {euler_beam(), plate_on_edges(Coupling::average), plate_on_nodes()}) {
     const Component c = component(body.model);
     EXPECT_EQ(normal_modes(c, floating, {.all = true}).omega.size(), body.model.n() - 3);
@@ -88,7 +88,7 @@ TEST(Keep, AllGivesAsManyShapesAsFreedomsLessThree) {
 
 // Lumped masses of beams may leave rotations without inertia: they follow statically and are no
 // modes.
-TEST(Keep, AllLeavesOutFreedomsWithoutMass) {
+TEST(Keep, AllLeavesOutDegreesOfFreedomWithoutMass) {
   const int elements = 6;
   SampleBody body = euler_beam(elements);
   const Component lumped = component(body.model, true);
@@ -100,7 +100,7 @@ TEST(Keep, AllLeavesOutFreedomsWithoutMass) {
   }();
   EXPECT_EQ(normal_modes(massless, floating, {.all = true}).omega.size(), 2 * (elements + 1) - 3);
   EXPECT_EQ(normal_modes(massless, pinned, {.all = true}).omega.size(), 2 * (elements + 1) - 3);
-  // Clamping holds two freedoms with mass and one without.
+  // Clamping holds two dofs with mass and one without.
   EXPECT_EQ(normal_modes(massless, clamped, {.all = true}).omega.size(), 2 * (elements + 1) - 2);
   // Static condensation of the rotations, by hand.
   MatrixXd K = massless.K;
@@ -117,11 +117,11 @@ TEST(Keep, AllLeavesOutFreedomsWithoutMass) {
   EXPECT_LT((omega - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.maxCoeff());
 }
 
-TEST(Keep, ReductionsOfMasslessFreedomsHaveFiniteFrequencies) {
+TEST(Keep, ReductionsOfMasslessDegreesOfFreedomHaveFiniteFrequencies) {
   const SampleBody body = euler_beam(2);
   Component c = component(body.model, true);
   for (int node = 0; node <= 2; ++node) c.M.coeffRef(3 * node + 2, 3 * node + 2) = 0;
-  // Interface: all freedoms but those of the middle node; two modes there. Only 6 freedoms have
+  // Interface: all dofs but those of the middle node; two modes there. Only 6 dofs have
   // mass.
   const ModalModel m = craig_bampton(c, both, floating, {.count = 2});
   EXPECT_LE(m.omega.size(), 3);

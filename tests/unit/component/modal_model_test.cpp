@@ -92,8 +92,8 @@ TEST(CraigBampton, FlexibilityOfTheHeldBodyIsExactAtItsPorts) {
     const SampleBody body = plate_on_edges(coupling);
     const Component c = component(body.model);
     const ModalModel m = craig_bampton(c, both, clamped, {.count = 2});
-    const int* a = body.model.ports[0].freedom;
-    const int* b = body.model.ports[1].freedom;
+    const int* a = body.model.ports[0].dof;
+    const int* b = body.model.ports[1].dof;
     MatrixXd K = c.K;
     for (int k = 0; k < 3; ++k) {
       K.row(a[k]).setZero();
@@ -129,7 +129,7 @@ TEST(FreeModes, KeptModesAreTheBodysOwn) {
 }
 
 TEST(FreeModes, AttachmentShapesThatKeptModesMakeUpAreLeftOut) {
-  const SampleBody body = euler_beam(2);  // 9 freedoms, 6 of them elastic
+  const SampleBody body = euler_beam(2);  // 9 dofs, 6 of them elastic
   const Component c = component(body.model);
   EXPECT_EQ(free_modes(c, both, floating, {.count = 4}).omega.size(), 6);
   EXPECT_EQ(free_modes(c, both, clamped, {.count = 6}).omega.size(), 6);
@@ -146,7 +146,7 @@ TEST(FreeModes, ResponseOfTheAcceleratingBodyIsExact) {
   MatrixXd load = MatrixXd::Zero(M.rows(), 4);
   int column = 0;
   for (const Port& p : body.model.ports)
-    for (int k = 0; k < 2; ++k) load(p.freedom[k], column++) = 1;
+    for (int k = 0; k < 2; ++k) load(p.dof[k], column++) = 1;
   const MatrixXd orthonormal = rigid.householderQr().householderQ() * MatrixXd::Identity(M.rows(), 3);
   const MatrixXd regular = K + K.diagonal().mean() * orthonormal * orthonormal.transpose();
   const MatrixXd elastic = project * regular.ldlt().solve(project.transpose() * load);

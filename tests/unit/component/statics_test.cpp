@@ -24,7 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Relative. Some hundred freedoms on beams of ten elements: condition 1e4 to 1e5 times 1e-16.
+// Relative. Some hundred dofs on beams of ten elements: condition 1e4 to 1e5 times 1e-16.
 constexpr double rounding = 1e-10;
 
 StaticSolution solve(const FeModel& m, const Supports& supports, const VectorXd& load) {
@@ -262,9 +262,9 @@ TEST(Reactions, AtAPortBalanceLoadsInForceAndMoment) {
     const VectorXd f = pressure_load(r.model, quarter, 2e6, 0.01) + acceleration_load(r.model, Assembler(r.model).mass(), {1, -9.81}) +
                        traction_load(r.model, quarter, {4e6, 1e6}, 0.01);
     const StaticSolution s = solve(r.model, supports, independent_load(r.model, f));
-    const Vector2d held(s.reactions[eye.freedom[0]], s.reactions[eye.freedom[1]]);
+    const Vector2d held(s.reactions[eye.dof[0]], s.reactions[eye.dof[1]]);
     EXPECT_LT((held + resultant(r.model, f)).norm(), rounding * held.norm());
-    EXPECT_NEAR(s.reactions[eye.freedom[2]], -moment(r.model, f, eye.x), rounding * held.norm());
+    EXPECT_NEAR(s.reactions[eye.dof[2]], -moment(r.model, f, eye.x), rounding * held.norm());
   }
 }
 
@@ -308,7 +308,7 @@ TEST(SolveStatic, NoLoadMovesNothing) {
 TEST(Restricted, IsThePrincipalSubmatrix) {
   const Cantilever c(euler, 3, 1, 0.4);
   const Sparse K = Assembler(c.model).stiffness();
-  const std::vector<int> keep = free_freedoms(c.model, c.supports);
+  const std::vector<int> keep = free_dofs(c.model, c.supports);
   ASSERT_EQ(keep.size(), 9u);
   const Eigen::MatrixXd whole(K), part(restricted(K, keep));
   for (int i = 0; i < 9; ++i)

@@ -24,7 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Relative. Some hundred freedoms on beams of ten elements: condition 1e4 to 1e5 times 1e-16.
+// Relative. Some hundred dofs on beams of ten elements: condition 1e4 to 1e5 times 1e-16.
 constexpr double rounding = 1e-10;
 
 StaticSolution solve(const FeModel& m, const Supports& supports, const VectorXd& load) {

@@ -104,7 +104,7 @@ TEST(Supports, WhatCannotBeHeldIsRefused) {
   EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { hold(s, bars, *bars.port("end"), false, false, true); }), "\"end\""));
   VectorXd f = VectorXd::Zero(4);
   EXPECT_TRUE(says(refusal<std::invalid_argument>([&] { add_force(f, *bars.port("end"), {0, 0}, 3); }), "no rotation"));
-  EXPECT_TRUE(s.freedoms.empty());
+  EXPECT_TRUE(s.dofs.empty());
 }
 
 }  // namespace

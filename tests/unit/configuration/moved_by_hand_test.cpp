@@ -84,9 +84,9 @@ TEST(MovedByHand, DriversLetGo) {
   EXPECT_NEAR(h.hand.coordinates()[6], std::sqrt(8), 1e-7);
 }
 
-TEST(MovedByHand, FreedomsAreMotionsThatKeepTheJointsClosed) {
+TEST(MovedByHand, DegreesOfFreedomAreMotionsThatKeepTheJointsClosed) {
   Hand h(slider_crank);
-  const Eigen::MatrixXd motions = h.hand.freedoms(5);
+  const Eigen::MatrixXd motions = h.hand.dofs(5);
   ASSERT_EQ(motions.cols(), 1);
   const Eigen::VectorXd& q = h.hand.coordinates();
   const double angle = q[2], rate = motions(2, 0), s = std::sin(angle), c = std::cos(angle);
@@ -95,10 +95,10 @@ TEST(MovedByHand, FreedomsAreMotionsThatKeepTheJointsClosed) {
   EXPECT_NEAR(motions(7, 0), 0, 1e-9);
 }
 
-TEST(MovedByHand, AFreeBodyHasThreeFreedomsAndGoesWhereItIsPulled) {
+TEST(MovedByHand, AFreeBodyHasThreeDegreesOfFreedomAndGoesWhereItIsPulled) {
   Hand h("bodies: {stone: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n");
   EXPECT_EQ(h.hand.mobility(), 3);
-  EXPECT_EQ(h.hand.freedoms(5).cols(), 3);
+  EXPECT_EQ(h.hand.dofs(5).cols(), 3);
   ASSERT_TRUE(h.hand.pull(0, {0.5, 0}, {2, 3}));
   const Eigen::VectorXd& q = h.hand.coordinates();
   EXPECT_NEAR((Vector2d(q.head<2>()) + Eigen::Rotation2Dd(q[2]) * Vector2d(0.5, 0) - Vector2d(2, 3)).norm(), 0, 1e-8);

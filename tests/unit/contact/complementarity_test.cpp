@@ -68,15 +68,15 @@ struct Problem {
 
 enum class Rub { none, free, sliding, any };
 
-/// Contacts between bodies of `freedoms` speeds u, the rates of which opening and slip are: W = Jᵀ M⁻¹ J, c = Jᵀ u, so that to stop
+/// Contacts between bodies of `dofs` speeds u, the rates of which opening and slip are: W = Jᵀ M⁻¹ J, c = Jᵀ u, so that to stop
 /// the bodies solves it but for signs. Units of contacts differ a thousandfold.
-Problem problem(Index contacts, Index freedoms, Rub rub, double mu, double preload, Draw& draw) {
+Problem problem(Index contacts, Index dofs, Rub rub, double mu, double preload, Draw& draw) {
   Problem out;
-  const MatrixXd light = VectorXd::NullaryExpr(freedoms, [&] { return draw.within(0.2, 2); }).asDiagonal();
+  const MatrixXd light = VectorXd::NullaryExpr(dofs, [&] { return draw.within(0.2, 2); }).asDiagonal();
   const VectorXd unit = VectorXd::NullaryExpr(2 * contacts, [&] { return std::pow(10, draw.within(-1.5, 1.5)); });
-  const MatrixXd J = draw.matrix(freedoms, 2 * contacts, 1) * unit.asDiagonal();
+  const MatrixXd J = draw.matrix(dofs, 2 * contacts, 1) * unit.asDiagonal();
   out.W = J.transpose() * light * J;
-  out.c = J.transpose() * draw.matrix(freedoms, 1, 1);
+  out.c = J.transpose() * draw.matrix(dofs, 1, 1);
   for (Index i = 0; i < contacts; ++i) {
     UnilateralContact k{.normal = static_cast<int>(2 * i)};
     const int of = static_cast<int>(2 * i + 1);
@@ -138,17 +138,17 @@ TEST(UnilateralForces, OfRowsThatFillABoxAreFoundButForRounding) {
 TEST(UnilateralForces, WithoutFrictionAreFoundAlways) {
   Draw draw(3);
   for (int k = 0; k < 600; ++k) {
-    const Index n = 1 + k % 12, freedoms = 1 + k % 17;  // fewer than contacts, as many, more
-    EXPECT_TRUE(expect_forces(problem(n, freedoms, Rub::none, 0, 0, draw))) << k;
+    const Index n = 1 + k % 12, dofs = 1 + k % 17;  // fewer than contacts, as many, more
+    EXPECT_TRUE(expect_forces(problem(n, dofs, Rub::none, 0, 0, draw))) << k;
   }
 }
 
 TEST(UnilateralForces, WithFrictionMeetItsLaw) {
   Draw draw(4);
   for (int k = 0; k < 1200; ++k) {
-    const Index n = 1 + k % 12, freedoms = 1 + k % 29;
+    const Index n = 1 + k % 12, dofs = 1 + k % 29;
     const double mu = k % 3 == 0 ? 0.1 : k % 3 == 1 ? 0.5 : 2.0, preload = k % 4 == 0 ? 1 : 0;
-    EXPECT_TRUE(expect_forces(problem(n, freedoms, Rub::free, mu, preload, draw))) << k;
+    EXPECT_TRUE(expect_forces(problem(n, dofs, Rub::free, mu, preload, draw))) << k;
   }
 }
 

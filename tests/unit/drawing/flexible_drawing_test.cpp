@@ -63,8 +63,8 @@ ModalModel shapes(const Body& body, const std::vector<Motion>& fields) {
   for (std::size_t k = 0; k < fields.size(); ++k)
     for (int i = 0; i < model.x.cols(); ++i) {
       const int begin = model.begin[static_cast<std::size_t>(i)];
-      const int freedoms = model.begin[static_cast<std::size_t>(i) + 1] - begin;
-      modes.shapes.col(static_cast<Eigen::Index>(k)).segment(begin, freedoms) = fields[k](model.x.col(i)).head(freedoms);
+      const int dofs = model.begin[static_cast<std::size_t>(i) + 1] - begin;
+      modes.shapes.col(static_cast<Eigen::Index>(k)).segment(begin, dofs) = fields[k](model.x.col(i)).head(dofs);
     }
   return modes;
 }

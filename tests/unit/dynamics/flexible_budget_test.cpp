@@ -43,7 +43,7 @@ Scene slider_crank(int cells, const std::string& stiffening) {
           "output: {points: [coupler.B], stress: [coupler.B]}\n",
       "plate.yaml");
 }
-constexpr int coarse = 16, fine = 192;  // 102 and 9650 freedoms
+constexpr int coarse = 16, fine = 192;  // 102 and 9650 dofs
 
 /// A mechanism ready to run and all that runs it.
 struct Ready {

@@ -56,11 +56,11 @@ Chain<E> chain(const E& e, int n, double length, double angle = 0) {
   return c;
 }
 
-using Freedom = std::vector<int>;
-inline MatrixXd kept(const MatrixXd& A, const Freedom& free) { return A(free, free); }
-/// Which freedoms remain; `held` counts from the end when negative.
-inline Freedom all_but(int n, std::vector<int> held) {
-  Freedom free;
+using Dofs = std::vector<int>;
+inline MatrixXd kept(const MatrixXd& A, const Dofs& free) { return A(free, free); }
+/// Which dofs remain; `held` counts from the end when negative.
+inline Dofs all_but(int n, std::vector<int> held) {
+  Dofs free;
   for (int i = 0; i < n; ++i) {
     bool is_free = true;
     for (int h : held) is_free = is_free && i != (h < 0 ? n + h : h);
@@ -68,8 +68,8 @@ inline Freedom all_but(int n, std::vector<int> held) {
   }
   return free;
 }
-/// Only u_y and φ of a chain along x, without the freedoms held.
-inline Freedom bending(int n, std::vector<int> held) {
+/// Only u_y and φ of a chain along x, without the dofs held.
+inline Dofs bending(int n, std::vector<int> held) {
   for (int i = 0; i < n; i += 3) held.push_back(i);
   return all_but(n, held);
 }

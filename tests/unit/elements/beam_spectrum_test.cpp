@@ -48,7 +48,7 @@ const Spectrum spectra[] = {
 template <class E>
 VectorXd spectrum(const E& e, int n, const std::vector<int>& held, bool lumped = false) {
   const Chain<E> c = chain(e, n, 1.0);
-  const Freedom free = bending(c.dofs(), held);
+  const Dofs free = bending(c.dofs(), held);
   const MatrixXd M = kept(lumped ? c.lumped() : c.M(), free);
   // Free bodies: shifted by a frequency of the size of the lowest.
   const double shift = 100 * e.EI / e.rhoA;
@@ -93,7 +93,7 @@ BeamTimoshenko deep_beam(ShearFactor factor) {
 /// Flexural frequencies of NAFEMS FV5 [Hz].
 VectorXd deep_beam_frequencies(const BeamTimoshenko& e, int n) {
   const Chain<BeamTimoshenko> c = chain(e, n, 10.0);
-  const Freedom free = bending(c.dofs(), {1, -2});
+  const Dofs free = bending(c.dofs(), {1, -2});
   return frequencies(kept(c.K(), free), kept(c.M(), free)) / (2 * M_PI);
 }
 TEST(Beam, DeepBeamOfNafemsHasItsPublishedFrequencies) {
@@ -111,7 +111,7 @@ TEST(Beam, DeepBeamOfNafemsHasItsPublishedFrequencies) {
     }
   }
   const Chain<BeamTimoshenko> c = chain(deep_beam(ShearFactor::cowper), 80, 10.0);
-  Freedom axial;
+  Dofs axial;
   for (int i = 3; i < c.dofs(); i += 3) axial.push_back(i);
   // A linear rod overshoots by (kh)²/24: 1.6e-5 of the quarter wave on 80 elements.
   EXPECT_NEAR(frequencies(kept(c.K(), axial), kept(c.M(), axial))[0] / (2 * M_PI) / 125, 1, 2e-5);
@@ -141,7 +141,7 @@ TEST(Beam, TimoshenkoFrequenciesConvergeAtSecondOrderDeepAndFourthSlender) {
 template <class E>
 double buckling_load(const E& e, int n) {
   const Chain<E> c = chain(e, n, 1.0);
-  const Freedom free = bending(c.dofs(), {1, -2});
+  const Dofs free = bending(c.dofs(), {1, -2});
   const double w = frequencies(kept(c.K(), free), kept(c.K_g([](double) { return 1; }), free))[0];
   return w * w;
 }
@@ -160,7 +160,7 @@ TEST(Bar, ChainUnderTensionIsAString) {
   const Bar bar{.EA = 3e6, .rhoA = 0.8};
   const auto error = [&](int n) {
     const Chain<Bar> c = chain(bar, n, 1.0);
-    Freedom free;
+    Dofs free;
     for (int i = 3; i < c.dofs() - 2; i += 2) free.push_back(i);
     const MatrixXd K_g = kept(c.K_g([](double) { return 50; }), free);
     return frequencies(K_g, kept(c.M(), free))[0] / (M_PI * std::sqrt(50 / 0.8)) - 1;
@@ -178,7 +178,7 @@ TEST(Beam, SpinningCantileverHasItsPublishedFlapwiseFrequencies) {
     const auto pull = [&](double s) { return k.eta * k.eta * (1 - s * s) / 2; };
     const auto on = [&](int n) {  // the pull's parabola becomes n chords: second order
       const Chain<BeamEuler> c = chain(e, n, 1.0);
-      const Freedom free = bending(c.dofs(), {1, 2});
+      const Dofs free = bending(c.dofs(), {1, 2});
       return frequencies(kept(c.K() + c.K_g(pull), free), kept(c.M(), free));
     };
     const VectorXd coarse = on(20), fine = on(40);

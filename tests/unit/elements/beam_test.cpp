@@ -92,7 +92,7 @@ TEST(Beam, SectionForcesOfACantileverAreThoseOfStatics) {
   f.tail<3>() << 5 * n + 70 * t, 0;
   const VectorXd u = cantilever(c, f);
   for (int i = 0; i < 4; ++i) {
-    const Stress<BeamTimoshenko> s = stress(timoshenko, c.coords(i), Freedoms<BeamTimoshenko>(u.segment<6>(3 * i)));
+    const Stress<BeamTimoshenko> s = stress(timoshenko, c.coords(i), NodalVector<BeamTimoshenko>(u.segment<6>(3 * i)));
     for (int end : {0, 1}) {
       EXPECT_NEAR(s(0, end), 70, 70 * 1e-10);  // the axis is 1e3 times stiffer than the bending
       EXPECT_NEAR(s(1, end), 5, 5 * 1e-10);
@@ -108,7 +108,7 @@ TEST(Beam, SectionForcesOfACantileverAreThoseOfStatics) {
 TEST(Beam, LineLoadIsTheLoadsWorkOnTheShapes) {
   const Coords<BeamTimoshenko> x = chain(timoshenko, 1, 1.7, 0.4).x;
   const Vector2d q(3, -2);
-  Freedoms<BeamTimoshenko> sum = Freedoms<BeamTimoshenko>::Zero();
+  NodalVector<BeamTimoshenko> sum = NodalVector<BeamTimoshenko>::Zero();
   const int n = 1000;  // middle points: 1/24 n² of the change of slope, here below 1e-6
   for (int i = 0; i < n; ++i) sum += shape(timoshenko, x, Vector2d((i + 0.5) / n, 0)).transpose() * q * 1.7 / n;
   EXPECT_LT((sum - line_load(timoshenko, x, q)).cwiseAbs().maxCoeff(), 1e-6);

@@ -58,7 +58,7 @@ double along_axis(F f) {
 double kinetic_energy(const Params& p, const Y& y, const Vector6& rate) {
   const double h = 1e-7;  // 1e-5 of a radian or a length at the rates in use here
   Y before = y, after = y;
-  for (std::size_t i = 0; i < freedoms; ++i) {
+  for (std::size_t i = 0; i < dofs; ++i) {
     before[i] -= h * rate[static_cast<int>(i)];
     after[i] += h * rate[static_cast<int>(i)];
   }
@@ -100,8 +100,8 @@ TEST(FlexibleSliderCrankOracle, MassMatrixIsThatOfTheMovingPoints) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const Y y = bent(seed);
     const Matrix6 M = inertia(p, y).mass;
-    for (int i = 0; i < freedoms; ++i)
-      for (int j = 0; j < freedoms; ++j) {
+    for (int i = 0; i < dofs; ++i)
+      for (int j = 0; j < dofs; ++j) {
         // Scaled such that all six directions move some point by as much.
         const double a = 1 / std::sqrt(M(i, i)), b = 1 / std::sqrt(M(j, j));
         const Vector6 u = a * Vector6::Unit(i), v = b * Vector6::Unit(j);
@@ -116,16 +116,16 @@ TEST(FlexibleSliderCrankOracle, VelocityTermsAreThoseOfLagrangesEquations) {
   const double h = 1e-5;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const Y y = bent(seed);
-    const Vector6 rate = Eigen::Map<const Vector6>(y.data() + freedoms);
+    const Vector6 rate = Eigen::Map<const Vector6>(y.data() + dofs);
     Vector6 expected = Vector6::Zero();  // Ṁ q̇ − ∂T/∂q
-    for (std::size_t i = 0; i < freedoms; ++i) {
+    for (std::size_t i = 0; i < dofs; ++i) {
       const int row = static_cast<int>(i);
       const Matrix6 slope = (inertia(p, moved(y, i, h)).mass - inertia(p, moved(y, i, -h)).mass) / (2 * h);
       expected += rate[row] * (slope * rate);
       expected[row] -= 0.5 * rate.dot(slope * rate);
     }
     const Vector6 found = inertia(p, y).velocity;
-    for (int i = 0; i < freedoms; ++i) EXPECT_NEAR(found[i], expected[i], difference * expected.cwiseAbs().maxCoeff()) << i;
+    for (int i = 0; i < dofs; ++i) EXPECT_NEAR(found[i], expected[i], difference * expected.cwiseAbs().maxCoeff()) << i;
   }
 }
 
@@ -138,7 +138,7 @@ TEST(FlexibleSliderCrankOracle, WeightIsTheFallOfGravitysEnergy) {
     const Vector6 found = inertia(p, s.y).weight;
     const double size_of = found.cwiseAbs().maxCoeff();
     EXPECT_NEAR(evaluate(p, s).gravity, gravity_energy(p, s.y), difference * size_of);
-    for (std::size_t i = 0; i < freedoms; ++i)
+    for (std::size_t i = 0; i < dofs; ++i)
       EXPECT_NEAR(found[static_cast<int>(i)], -(gravity_energy(p, moved(s.y, i, h)) - gravity_energy(p, moved(s.y, i, -h))) / (2 * h),
                   difference * size_of)
           << i;
