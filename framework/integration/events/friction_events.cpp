@@ -186,11 +186,10 @@ EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
   const std::size_t k = place(event);
   const bool breaks_away = !of_sliding(event) && step.to.state.friction[k].direction == 0;
   if (decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt)) return {.change = EventOutcome::Change::jump};
-  const bool rubs = std::ranges::any_of(step.to.state.friction, [](const DryFriction& f) { return std::abs(f.direction) <= 1; });
   return {.failure =
-              name(event) + ": no forces of the rigid contacts let the motion continue" +
-              (rubs ? ", as when a rod that slides on its tip jams (Painlevé); give the contact a law with a stiffness, or less friction"
-                    : std::string("; ") + pressed_together)};
+              name(event) +
+              ": no forces of the rigid contacts let the motion continue, as when a rod that slides on its tip jams (Painlevé); give "
+              "the contact a law with a stiffness, or less friction"};
 }
 
 // Friction that slid until now and that no force can hold slides in the opposite direction.
