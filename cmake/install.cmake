@@ -19,6 +19,7 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/pintleConfigVersion.cmake
   cmake/FindLZ4.cmake
   cmake/FindSuiteSparse.cmake
+  cmake/FindYAML.cmake
   DESTINATION ${pintle_config} COMPONENT development)
 
 if(NOT PROJECT_IS_TOP_LEVEL)

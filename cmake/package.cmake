@@ -33,7 +33,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "planar flexible mechanisms with rea
  then link pintle::pintle.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "${program}, libeigen3-dev, libsuitesparse-dev, libopenblas-dev | liblapack-dev, liblz4-dev, libnlopt-dev, libyaml-cpp-dev")
+  "${program}, libeigen3-dev, libsuitesparse-dev, libopenblas-dev | liblapack-dev, liblz4-dev, libnlopt-dev, libyaml-dev")
 
 if(TARGET pintle_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pintle)

@@ -22,7 +22,7 @@ Classifier: Operating System :: POSIX :: Linux
 Classifier: Programming Language :: Python :: 3
 Classifier: Topic :: Scientific/Engineering :: Physics
 
-The libraries that it links are those of the Debian release that it was built on: SuiteSparse, OpenBLAS, NLopt, yaml-cpp, VTK, Gmsh.
+The libraries that it links are those of the Debian release that it was built on: SuiteSparse, OpenBLAS, NLopt, libyaml, VTK, Gmsh.
 """
 
 

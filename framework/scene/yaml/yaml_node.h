@@ -10,7 +10,7 @@
 #include "framework/scene/units/expression.h"
 #include "framework/scene/yaml/scope.h"
 
-/// A YAML file as a tree that stores the line of each key and value. Only yaml_tree.cpp includes yaml-cpp.
+/// A YAML file as a tree that stores the line of each key and value. Only yaml_tree.cpp includes libyaml.
 namespace pintle {
 
 struct Yaml {

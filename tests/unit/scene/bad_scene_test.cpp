@@ -172,8 +172,22 @@ TEST(BadScene, YamlItselfIsJudged) {
       {"run:", "---\nrun:", "scene.yaml:", {"second document"}},
       {"title: Slider-crank", "title: \"\\x01\"", "scene.yaml:1: ", {"control character number 1"}},
       {"run:", "output: {points: [\"\\e\"]}\nrun:", "scene.yaml:", {"control character number 27"}},
+      {"title: Slider-crank", "title: \x01", "scene.yaml:1: ", {"control character number 1;"}},
+      {"0.01 mm", "0.01 mm  # gr\xfc\xdf", "scene.yaml:4: ", {"not UTF-8"}},
   });
   EXPECT_EQ(refusal_of(with("title: Slider-crank", "title: \"a\\tb\\nc\"")), "accepted");
+}
+
+// Also where the parser notices the fault only in the next line, or at the end of the text.
+TEST(BadScene, WhatIsNoYamlIsNamedByItsLine) {
+  expect_says(refusal_of("title: a\nbodies: {crank: {}\n"), {"scene.yaml:2: this is not YAML", "flow mapping that begins in line 2"});
+  expect_says(refusal_of("title: a\nbodies: {crank: {}"), {"scene.yaml:2: this is not YAML"});
+  expect_says(refusal_of("title: a\nbodies\ncrank: {}\n"), {"scene.yaml:2: this is not YAML", "':'"});
+  expect_says(refusal_of("title: \"a\nbodies: {}\n"), {"scene.yaml:2: this is not YAML", "begins in line 1"});
+  expect_says(refusal_of("title: a: b\n"), {"scene.yaml:1: this is not YAML"});
+  std::string deep;
+  for (int i = 0; i < 501; ++i) deep += "{a: ";
+  expect_says(refusal_of("title: " + deep), {"scene.yaml:1: more than 500 lists and groups inside one another"});
 }
 
 TEST(BadScene, ExpressionWithCommasInBracesIsToldToUseQuotes) {
