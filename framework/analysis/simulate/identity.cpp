@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -10,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/common/sha256.h"
+#include "framework/common/fingerprint.h"
 #include "framework/common/some_of.h"
 #include "framework/common/library_threads.h"
 #include "framework/common/value_writer.h"
@@ -25,8 +26,8 @@ using Json = nlohmann::json;
 class Sum : public ValueWriter<Sum> {
  public:
   using ValueWriter::add;
-  void bytes(std::string_view some) { sum_.add(some); }
-  std::string take() { return sum_.hex(); }
+  void bytes(std::string_view some) { sum_ = fingerprint(some, sum_); }
+  std::string text() const { return fingerprint_text(sum_); }
 
   void add(const TimeLaw& law) {
     if (!law) return add(false);
@@ -201,7 +202,7 @@ class Sum : public ValueWriter<Sum> {
     }
   }
 
-  Sha256 sum_;
+  std::uint64_t sum_ = fingerprint("");
 };
 
 Json words(const Scene& scene) {
@@ -216,7 +217,7 @@ Json words(const Scene& scene) {
   return said;
 }
 
-std::string sum_of(const Json& said) { return sha256(said.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+std::string sum_of(const Json& said) { return fingerprint_text(fingerprint(said.dump(-1, ' ', false, Json::error_handler_t::replace))); }
 
 /// Checksums of each section, and of each of its entries: "bodies.crank".
 Json sums_of_words(const Json& said) {
@@ -237,12 +238,12 @@ void add_files(const Json& said, const fs::path& folder, Json& out) {
     std::error_code error;
     if (text.empty() || text.size() >= 256 || text.find('\n') != std::string::npos || !fs::is_regular_file(folder / text, error)) return;
     std::ifstream in(folder / text, std::ios::binary);
-    Sha256 content;
+    Sum content;
     for (std::string part(1 << 16, '\0'); in.good();) {
       in.read(part.data(), static_cast<std::streamsize>(part.size()));
-      content.add(std::string_view(part.data(), static_cast<std::size_t>(in.gcount())));
+      content.bytes(std::string_view(part.data(), static_cast<std::size_t>(in.gcount())));
     }
-    out[text] = content.hex();
+    out[text] = content.text();
   } else if (said.is_structured()) {
     for (const Json& item : said) add_files(item, folder, out);
   }
@@ -254,7 +255,7 @@ std::string sum_of(const Model& model, const Assembly& assembly) {
   const Scheme& s = model.scheme;  // the pair and its fallback are those of the saved state
   sum.add(s.tolerance, s.constraints, s.onset_cut, s.rho, s.max_steps);
   sum.add(assembly.start.t, assembly.start.y.head(2 * model.system.n()));
-  return sum.take();
+  return sum.text();
 }
 
 /// The names for which two such lists differ, including those missing in one of them.

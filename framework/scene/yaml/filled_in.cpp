@@ -37,17 +37,24 @@ Json angle(double value) {
   return Json(value).dump() + " rad";
 }
 
-Json points(const std::vector<ScenePoint>& all) {
+/// {name: of(x)} for each x. Room is reserved because the object copies its entries, each with all below it, when it grows.
+template <class T, class Of>
+Json entries(const std::vector<T>& all, const Of& of) {
   Json out = Json::object();
-  for (const ScenePoint& p : all) {
+  out.get_ref<Json::object_t&>().reserve(all.size());
+  for (const T& x : all) append(out, x.name, of(x));
+  return out;
+}
+
+Json points(const std::vector<ScenePoint>& all) {
+  return entries(all, [](const ScenePoint& p) {
     Json point = {{"angle", angle(p.angle)}};
     if (p.hole.empty())
       point["at"] = json(p.at);
     else
       point.update({{"hole", p.hole}, {"coupling", p.coupling == RimCoupling::average ? "average" : "rigid"}});
-    append(out, p.name, point);
-  }
-  return out;
+    return point;
+  });
 }
 
 // A parameter keeps its unit, so that laws in t that use it can be read back.
@@ -82,9 +89,7 @@ Json json(const SceneProfile& p) {
 }
 
 Json profiles(const std::vector<SceneProfile>& all) {
-  Json out = Json::object();
-  for (const SceneProfile& p : all) append(out, p.name, json(p));
-  return out;
+  return entries(all, [](const SceneProfile& p) { return json(p); });
 }
 
 Json rigid(const SceneBody& body) {
@@ -251,26 +256,23 @@ Json json(const OutputOptions& output, const Scene& scene) {
 }  // namespace
 
 std::string filled_in(const Scene& scene, const Parameters& parameters) {
+  const auto entry = [](const auto& x) { return with_engaged(json(x), x.engaged); };
+  const auto force = [](const SceneLoad& l) {
+    return with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged);
+  };
   Json out = Json::object();
   if (!scene.title.empty()) out["title"] = scene.title;
   out["gravity"] = json(scene.gravity);
   Json& named = out["parameters"] = Json::object();
   for (const auto& [name, value] : scene.parameters) append(named, name, parameter(name, value, parameters));
-  Json& materials = out["materials"] = Json::object();
-  for (const SceneMaterial& m : scene.materials) append(materials, m.name, json(m));
+  out["materials"] = entries(scene.materials, [](const SceneMaterial& m) { return json(m); });
   out["ground"]["points"] = points(scene.ground);
   if (!scene.ground_profiles.empty()) out["ground"]["profiles"] = profiles(scene.ground_profiles);
-  Json& bodies = out["bodies"] = Json::object();
-  for (const SceneBody& b : scene.bodies) append(bodies, b.name, json(b));
-  Json& joints = out["joints"] = Json::object();
-  for (const SceneJoint& j : scene.joints) append(joints, j.name, with_engaged(json(j), j.engaged));
-  Json& contacts = out["contacts"] = Json::object();
-  for (const SceneContact& c : scene.contacts) append(contacts, c.name, with_engaged(json(c), c.engaged));
-  Json& drivers = out["drivers"] = Json::object();
-  for (const SceneDriver& d : scene.drivers) append(drivers, d.name, with_engaged(json(d), d.engaged));
-  Json& forces = out["forces"] = Json::object();
-  for (const SceneLoad& l : scene.loads)
-    append(forces, l.name, with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged));
+  out["bodies"] = entries(scene.bodies, [](const SceneBody& b) { return json(b); });
+  out["joints"] = entries(scene.joints, entry);
+  out["contacts"] = entries(scene.contacts, entry);
+  out["drivers"] = entries(scene.drivers, entry);
+  out["forces"] = entries(scene.loads, force);
   for (const SceneState& s : scene.states)
     if (!s.place.key.starts_with("parameters.")) append(out["states"], s.name, json(s));
   for (const SceneOutput& o : scene.outputs) append(out["outputs"], o.name, json(o.law));

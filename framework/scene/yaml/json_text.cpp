@@ -1,5 +1,7 @@
 #include "framework/scene/yaml/json_text.h"
 
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 
 #include "framework/scene/scene.h"
@@ -26,10 +28,9 @@ std::string text_with_scene(const nlohmann::ordered_json& object, const Scene& s
   out.resize(out.size() - 2);  // "\n}"
   out.reserve(out.size() + scene.filled_in.size() * 3 / 2);
   out += ",\n  \"scene\": ";
-  for (const char c : scene.filled_in) {
-    out += c;
-    if (c == '\n') out += "  ";
-  }
+  std::string_view rest = scene.filled_in;
+  for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.remove_prefix(end + 1)) out.append(rest, 0, end + 1).append("  ");
+  out += rest;
   return out + "\n}\n";
 }
 
