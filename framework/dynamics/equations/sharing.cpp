@@ -24,6 +24,14 @@ VectorXd solution(const MatrixXd& W, const VectorXd& rhs) {
   return Eigen::Vector2d(W(1, 1) * rhs[0] - W(0, 1) * rhs[1], W(0, 0) * rhs[1] - W(1, 0) * rhs[0]) / det;
 }
 
+// Whether all singular values of a matrix with this factorization are surely above `one` of the largest. The condition is estimated to a
+// small factor, and not at all for a pivot that is exactly 0; norms differ by up to the size.
+bool is_regular(const Eigen::PartialPivLU<MatrixXd>& lu, double one) {
+  constexpr double doubt = 100;
+  const double least = doubt * static_cast<double>(lu.rows()) * one;
+  return lu.matrixLU().diagonal().cwiseAbs().minCoeff() > least && lu.rcond() > least;
+}
+
 }  // namespace
 
 VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capacity, double one,
@@ -37,7 +45,9 @@ VectorXd share_out(const MatrixXd& W, const VectorXd& rhs, const VectorXd& capac
   const VectorXd weight = most > 0 ? VectorXd(capacity.cwiseMax(least * most).cwiseSqrt()) : VectorXd(VectorXd::Ones(m));
   // The rank is that of W scaled to unit slips; of its solutions, the one of least norm is taken.
   const VectorXd unit = W.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-  const Eigen::BDCSVD<MatrixXd> svd(unit.asDiagonal() * W * unit.asDiagonal(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const MatrixXd A = unit.asDiagonal() * W * unit.asDiagonal();
+  if (const Eigen::PartialPivLU<MatrixXd> lu(A); is_regular(lu, one)) return unit.cwiseProduct(lu.solve(unit.cwiseProduct(rhs)));
+  const Eigen::BDCSVD<MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Index rank = (svd.singularValues().array() > one * svd.singularValues()[0]).count();
   const MatrixXd rows = svd.singularValues().head(rank).asDiagonal() * svd.matrixV().leftCols(rank).transpose() *
                         unit.cwiseInverse().cwiseProduct(weight).asDiagonal();
