@@ -14,17 +14,22 @@ namespace pintle {
 
 namespace {
 
-// The change of slip due to 1 N in column i of eq.sticking, relative to that of free bodies. Near 0, as at a dead centre, no force can hold
-// it.
+// Cosine of the angle between the force in column i of eq.sticking and the motion that it causes, in coordinates relative to their scales:
+// how much of this motion is slip, whatever the masses. Near 0, as at a dead centre, no force can hold the slip.
 double leverage(const System& system, Equations& eq, Eigen::Index i) {
-  Eigen::VectorXd a = eq.sticking.J.col(i), lambda;
-  double free = 0;
+  constexpr double rounding = 1e-12;  // of the motion, relative to that of bodies without joints
+  const Eigen::VectorXd J = eq.sticking.J.col(i);
+  Eigen::VectorXd a = J, lambda, free = Eigen::VectorXd::Zero(J.size());
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const Eigen::Vector3d J = a.segment<3>(3 * static_cast<Eigen::Index>(b));
-    free += J.head<2>().squaredNorm() / system.bodies[b].m + J[2] * J[2] / system.bodies[b].J;
+    const Eigen::Index at = 3 * static_cast<Eigen::Index>(b);
+    free.segment<2>(at) = J.segment<2>(at) / system.bodies[b].m;
+    free[at + 2] = J[at + 2] / system.bodies[b].J;
   }
   respond(system, eq, a, lambda);
-  return free > 0 ? eq.sticking.J.col(i).dot(a) / free : 1;
+  const double moved = a.cwiseQuotient(system.scale).norm(), unbound = free.cwiseQuotient(system.scale).norm();
+  if (unbound == 0) return 1;  // of two ends on the ground
+  if (moved <= rounding * unbound) return 0;
+  return J.dot(a) / (J.cwiseProduct(system.scale).norm() * moved);
 }
 
 MarkerMotion motion_of(const System& system, int marker, const Eigen::VectorXd& y) {
@@ -111,7 +116,8 @@ Guard FrictionEvents::guard(int event, const State& state, const FrictionNow& no
   const DryFriction& dry = state.friction[place(event)];
   const bool undecided = dry.direction == DryFriction::undecided;
   if (of_sliding(event)) return {undecided || dry.direction == 0 ? 1.0 : dry.direction * now.slip + 2 * still(event)};
-  if (undecided || dry.direction != 0) return {undecided ? 1.0 : -1.0};
+  if (undecided) return {of_rigid(place(event)) ? 1.0 : std::abs(now.slip) / (8 * still(event)) - 1};
+  if (dry.direction != 0) return {-1.0};
   const double force = std::abs(dry.force), limit = now.holds;
   if (force > limit && of_rigid(place(event)) && limit <= part_of_most * most_pressed(system_, state)) return {-1.0};  // both are rounding
   return {force <= limit ? (limit > 0 ? force / limit : 0) - 1 : std::min(force / std::max(limit, 1e-300), 1e300) - 1};
@@ -192,7 +198,8 @@ EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
               "the contact a law with a stiffness, or less friction"};
 }
 
-// Friction that slid until now and that no force can hold slides in the opposite direction.
+// Friction that slid until now and that no force can hold slides in the opposite direction. Where a driver moves it from rest, it is
+// undecided, and without force, until it moves.
 void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
   constexpr double dead = 1e-4;
   pose(system_, state.t, state.y, *eq_);
@@ -204,8 +211,11 @@ void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
   const std::vector<Sticking::Column>& of = eq_->sticking.of;
   for (std::size_t i = 0; i < resting.at.size(); ++i) {
     const auto column = std::ranges::find_if(of, [&](const auto& c) { return c.at == resting.at[i] && !c.normal; }) - of.begin();
-    if (std::abs(resting.came[i]) == 1 && leverage(system_, *eq_, column) < dead)
+    const double by_force = leverage(system_, *eq_, column);
+    if (std::abs(resting.came[i]) == 1 && by_force < dead)
       state.friction[resting.at[i]].direction = -resting.came[i];
+    else if (by_force == 0 && !of_rigid(resting.at[i]))
+      state.friction[resting.at[i]].direction = DryFriction::undecided;
   }
 }
 

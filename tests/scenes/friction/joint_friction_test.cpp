@@ -99,6 +99,43 @@ TEST_P(JointFriction, APendulumStaysInItsFriction) {
   EXPECT_LT(last(1.02 * limit), -1e-4);
 }
 
+// At the end of a swing it is held, however little inertia it has about its middle: ends at 2 δ − θ₀ with δ = μ r/l.
+TEST_P(JointFriction, ACompactPendulumIsHeldAtTheEndOfItsSwing) {
+  for (const double inertia : {1e-4, 1e-6, 1e-9}) {
+    SCOPED_TRACE(inertia);
+    const double start = 0.005, offset = 0.2 * 0.01 / 0.5;
+    const Whole w = run("gravity: [0, -9.81]\nbodies: {bob: {rigid: {mass: 1, inertia: " + number(inertia) +
+                            "}, points: {P: [0, 0.5]}}}\n"
+                            "joints: {pin: {revolute: [ground, bob.P], friction: {coulomb: {coefficient: 0.2}, radius: 10 mm}}}\n"
+                            "start: {bob: {angle: " +
+                            number(start) + "}}\nrun: {until: 3}\noutput: {every: 0.1}\n",
+                        GetParam());
+    expect_sound(w);
+    EXPECT_NEAR(w.last("bob.angle [rad]"), 2 * offset - start, 1e-3 * start);
+    EXPECT_NEAR(w.last("bob.speed [rad/s]"), 0, 1e-12);
+  }
+}
+
+// As does a bucket that hangs on an arm which lifts it: with both pins rough, and masses in points.
+TEST_P(JointFriction, ACompactBucketSwingsOnARoughArm) {
+  for (const double inertia : {1e-1, 1e-4, 1e-7}) {
+    SCOPED_TRACE(inertia);
+    const Whole w =
+        run("gravity: [0, -9.81]\nbodies:\n  arm: {rigid: {mass: 10, inertia: 0.3}, points: {O: [-0.3, 0], E: [0.3, 0]}, pose: {at: [0.3, "
+            "0]}}\n"
+            "  bucket: {rigid: {mass: 5, inertia: " +
+                number(inertia) +
+                "}, points: {P: [0, 0.2]}, pose: {at: [0.6, -0.2]}}\n"
+                "joints:\n  h: {revolute: [ground, arm.O], friction: {coulomb: {coefficient: 0.2}, radius: 20 mm}}\n"
+                "  p: {revolute: [arm.E, bucket.P], friction: {coulomb: {coefficient: 0.2}, radius: 15 mm}}\n"
+                "drivers: {d: {angle: [ground, arm], law: \"0.5*step(t, 0, 1 s)\"}}\nrun: {until: 10}\noutput: {every: 0.1}\n",
+            GetParam());
+    expect_sound(w);
+    EXPECT_NEAR(w.last("bucket.speed [rad/s]"), 0, 1e-9);
+    EXPECT_LT(std::abs(w.last("bucket.angle [rad]")), 1.01 * 0.2 * 0.015 / 0.2);  // the pin holds no more
+  }
+}
+
 // A drawer pushed off its middle by h jams in its guide of length L where 2 μ h/L > 1, however hard the push.
 TEST_P(JointFriction, ADrawerJamsWherePushedTooFarFromItsMiddle) {
   const auto moved = [&](double h, double push) {
