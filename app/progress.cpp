@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <ctime>
 #include <cstdlib>
 #include <cstring>
 #include <iomanip>
@@ -72,11 +73,23 @@ extern "C" void tell_of_crash(int signal) {
   ::raise(signal);  // ends as it would have without the handler, which is called only once
 }
 
+/// Seconds of a clock that a signal handler may read.
+double seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// `timeout` sends its signal to the program and again to the group of the program: such a pair is one request.
 extern "C" void ask_to_stop(int signal) {
+  constexpr double one_request = 0.5;
+  static double asked_at = 0;
   if (asked_by == 0) {
     asked_by = signal;
+    asked_at = seconds();
     return;
   }
+  if (seconds() - asked_at < one_request) return;
   struct sigaction otherwise {};
   otherwise.sa_handler = SIG_DFL;
   ::sigaction(signal, &otherwise, nullptr);
@@ -90,6 +103,7 @@ void handle(int signal) {
   struct sigaction asks {};
   asks.sa_handler = ask_to_stop;
   asks.sa_flags = SA_RESTART;
+  for (const int other : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&asks.sa_mask, other);
   ::sigaction(signal, &asks, nullptr);
 }
 

@@ -63,6 +63,21 @@ TEST_P(Stopped, ARunStoppedBySignalKeepsItsResultsAndSaysWhich) {
   EXPECT_NE(report["reason"].get<std::string>().find(GetParam().word), std::string::npos);
 }
 
+// As `timeout` sends it, to the program and to its group.
+TEST_P(Stopped, ASignalThatComesTwiceAtOnceIsOneRequest) {
+  const Folder folder;
+  const fs::path log = folder.path() / "log", out = folder.path() / "out";
+  const pid_t child = start(log, run_command(example, out, for_long));
+  ASSERT_TRUE(has_rows(folder.path()));
+  for (const int signal : {GetParam().signal, GetParam().signal}) {
+    ::kill(child, signal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const Ended end = wait_for(child, log);
+  EXPECT_EQ(end.code, 6) << end.signal << end.complained;
+  EXPECT_EQ(report_in(out)["status"], "interrupted");
+}
+
 // Of a hundred thousand frames hardly any is there when the signal comes.
 TEST_P(Stopped, WritingEndsBySignalAndSaysWhereItsBeginningIs) {
   const Folder folder;
