@@ -355,7 +355,7 @@ class Builder {
       wrong(run.place, "partitioning uses dense matrices, for at most 300 constraint equations; this scene has " +
                            std::to_string(model_.system.n_rows()) + "; use constraints: projection");
     s.onset_cut = run.onset_cut.value_or(0);
-    follow_laws(scene_, s);
+    std::ranges::move(follow_laws(scene_, s), std::back_inserter(model_.warnings));
     if (s.fixed_step > 0) s.max_step = std::min(s.max_step, s.fixed_step);
     s.max_steps = run.max_steps;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <sstream>
 
 #include "framework/common/text.h"
@@ -73,22 +75,48 @@ const Program* formula_of(const Law& law) {
   return nullptr;
 }
 
-/// Calls f(law of time) for conditions of t alone inside laws of signals.
+/// Calls f(law of time, law, name, place) for conditions of t alone inside laws of signals.
 template <class F>
 void each_switch_of_time(const Scene& scene, F f) {
-  const auto see = [&](const Law& law) {
+  const auto see = [&](const Law& law, const auto& owner) {
     if (const Program* program = formula_of(law); program && law.uses_time)
-      for (Program& one : switches_of_time(*program)) f(TimeLaw(std::move(one)));
+      for (Program& one : switches_of_time(*program)) f(TimeLaw(std::move(one)), law, owner.name, owner.place);
   };
   for (const SceneLoad& l : scene.loads) {
-    if (const auto* force = std::get_if<SceneForce>(&l.what)) see(force->x), see(force->y);
-    if (const auto* torque = std::get_if<SceneTorque>(&l.what)) see(torque->law);
-    if (const auto* spring = std::get_if<SceneSpring>(&l.what); spring && spring->law) see(*spring->law);
-    if (const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what); torsion && torsion->law) see(*torsion->law);
+    if (const auto* force = std::get_if<SceneForce>(&l.what)) see(force->x, l), see(force->y, l);
+    if (const auto* torque = std::get_if<SceneTorque>(&l.what)) see(torque->law, l);
+    if (const auto* spring = std::get_if<SceneSpring>(&l.what); spring && spring->law) see(*spring->law, l);
+    if (const auto* torsion = std::get_if<SceneTorsionSpring>(&l.what); torsion && torsion->law) see(*torsion->law, l);
   }
-  for (const SceneState& s : scene.states) see(s.rate);
+  for (const SceneState& s : scene.states) see(s.rate, s);
   for (const SceneEvent& e : scene.events)
-    for (const Law& law : e.when) see(law);
+    for (const Law& law : e.when) see(law, e);
+}
+
+/// A law as messages name it.
+std::string named(const Scene& scene, const Law& law, const std::string& name, const Place& place) {
+  const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : std::string();
+  return "the law" + (law.text.empty() ? "" : " " + law.text) + " of \"" + name + "\" (" + (place.file.empty() ? scene.file : place.file) +
+         line + ")";
+}
+
+/// A short piece of a law that has too many of them to list, from the longest beginning of the run, by halves, in which they can be listed:
+/// a tenth of them are shorter, as those that a root cuts off. None: 0, as for a C++ function.
+struct ShortPiece {
+  double length = 0, until = 0;  ///< [s]
+};
+ShortPiece short_piece(const TimeLaw& law, double until) {
+  constexpr double least = 1e-9;  // of the run
+  for (double end = until / 2; end > least * until; end /= 2) {
+    const LawScale scale = scale_of(law, end);
+    if (!scale.known) continue;
+    std::vector<double> lengths;
+    std::adjacent_difference(scale.pieces.begin(), scale.pieces.end(), std::back_inserter(lengths));
+    const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+    std::ranges::nth_element(lengths, tenth);
+    return {*tenth, end};
+  }
+  return {};
 }
 
 /// Adds the times at which a comparison of t alone, given as a difference, is zero: steps end there, to the last digit.
@@ -156,33 +184,43 @@ void order(std::vector<LawChange>& changes) {
 
 }  // namespace
 
-void follow_laws(const Scene& scene, Scheme& scheme) {
+std::vector<std::string> follow_laws(const Scene& scene, Scheme& scheme) {
   const RunOptions& run = scene.run;
+  std::vector<std::string> warnings;
   if (run.max_step > 0) scheme.max_step = run.max_step;
-  if (!scene.has_run) return;
+  if (!scene.has_run) return warnings;
   bool known = true;
-  each_law(scene, [&](const Law& law, const std::string&, const Place& place, const SceneDriver* driver) {
+  const auto list = [&](LawScale scale, const TimeLaw& of_time, const auto& breaks_motion, const auto& said) {
+    for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, breaks_motion(b)});
+    scheme.bends.push_back(bends_of(of_time, scale.pieces));
+    if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
+    if (scale.known || run.max_step > 0) return;
+    const ShortPiece piece = short_piece(of_time, run.until);
+    known = known && piece.length > 0;
+    if (piece.length == 0) return;
+    scheme.max_step = std::min(scheme.max_step, piece.length / 2);
+    warnings.push_back(said() + " changes its course too often to list all its times: steps take at most " +
+                       number_text(piece.length / 2, 3) + " s, as its pieces in the first " + number_text(piece.until, 3) +
+                       " s ask for; if it changes faster later, give run.max step, or end the run before");
+  };
+  each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver* driver) {
     if (stands_still(law, run.until)) return;
     LawScale scale = scale_of(law.at, run.until);
     validate_finite(scene, law, place, scale, driver != nullptr);
     if (driver) validate_jumps(scene, *driver, scale);
-    known = known && scale.known;
-    for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, driver ? accelerates_anew(b) : value_jumps(b)});
-    scheme.bends.push_back(bends_of(law.at, scale.pieces));
-    if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
+    const auto breaks_motion = [&](const LawBreak& b) { return driver ? accelerates_anew(b) : value_jumps(b); };
+    list(std::move(scale), law.at, breaks_motion, [&] { return named(scene, law, name, place); });
   });
-  each_switch_of_time(scene, [&](const TimeLaw& law) {
-    LawScale scale = scale_of(law, run.until);
-    for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, value_jumps(b)});
-    scheme.bends.push_back(bends_of(law, scale.pieces));
-    if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
+  each_switch_of_time(scene, [&](const TimeLaw& of_time, const Law& law, const std::string& name, const Place& place) {
+    list(scale_of(of_time, run.until), of_time, value_jumps, [&] { return "a condition in " + named(scene, law, name, place); });
   });
   for (const SceneEvent& e : scene.events)
     for (const Law& law : e.when)
       if (law.at) end_at_zeros(law.at, run.until, scheme.changes);
   order(scheme.changes);
   known = known && !uses_time_beside_signals(scene);
-  if (!known && run.max_step <= 0) scheme.max_step = run.until / steps_through_laws;
+  if (!known && run.max_step <= 0) scheme.max_step = std::min(scheme.max_step, run.until / steps_through_laws);
+  return warnings;
 }
 
 std::string explain_laws(const Scene& scene, double t) {
@@ -191,9 +229,7 @@ std::string explain_laws(const Scene& scene, double t) {
   std::string out;
   each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver*) {
     if (!out.empty() || scale_of(law.at, scene.run.until).known) return;
-    const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : std::string();
-    const std::string which = "the law" + (law.text.empty() ? "" : " " + law.text) + " of \"" + name + "\" (" +
-                              (place.file.empty() ? scene.file : place.file) + line + ") ";
+    const std::string which = named(scene, law, name, place) + " ";
     const Jet now = law.at(t), then = law.at(t + 1e-9 * scene.run.until);
     double before = 0;
     for (int i = 0; i < looks; ++i) {

@@ -218,6 +218,24 @@ TEST(TimeLaws, SmoothOnesLimitNoStep) {
   EXPECT_LT(run(s).run.counts.steps, 100);
 }
 
+// On for half of each of 20 000 periods.
+TEST(TimeLaws, ThatSwitchTooOftenToBeListedAreFollowedWithAWarning) {
+  Scene s = pushed(torque_law("if(sin(2*pi*1000*t) > 0, 1, 0)"), 20);
+  s.loads[0].place = {17, "forces.push"};
+  for (const char* method : {"rkf45", "dopri5", "generalized-alpha"}) {
+    s.run.method = method, s.run.tolerance = 1e-6;
+    const Model model = build(s);
+    ASSERT_EQ(model.warnings.size(), 1u);
+    EXPECT_TRUE(says(model.warnings[0], "of \"push\" (") && says(model.warnings[0], "too often") &&
+                says(model.warnings[0], "run.max step"));
+    EXPECT_LT(model.scheme.max_step, 2.5e-4 + 1e-12);
+    EXPECT_GT(model.scheme.max_step, 1e-5);
+    EXPECT_NEAR(run(s).last("wheel.speed [rad/s]"), 10, 0.01) << method;
+  }
+  s.run.max_step = 1e-4;
+  EXPECT_TRUE(build(s).warnings.empty());
+}
+
 // What cannot be looked into may do nothing for long and then act.
 TEST(TimeLaws, OfTheHostsOwnFunctionsNoThousandthIsPassedOver) {
   const Law law{[](double t) { return Jet{std::abs(t - 0.5) < 2e-3 ? 1.0 : 0.0, 0, 0}; }, "mine", false};
