@@ -127,7 +127,7 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   scene.file = file;
   source.doubts = &scene.warnings;
   read_parameters(root, parameters, source, scene);
-  if (copies) expand(tree, source);
+  if (has_copies(tree)) expand(tree, source);  // an override may have brought them
   apply_paths(tree, file, later);
   if (!root.has("bodies"))
     root.fail("lacks a required key; add for example bodies: {crank: {rigid: {mass: 0.3 kg, inertia: 1e-4 kg m^2}}}");

@@ -57,6 +57,11 @@ TEST(Override, MakesTheGroupsOnItsWay) {
   EXPECT_EQ(scene.start_bodies.back().vy, 2);
 }
 
+TEST(Override, MayBringTheFirstCopies) {
+  const std::string one = "bodies: {rod: {rigid: {mass: 1, inertia: 1}}}\nrun: {until: 1}\n";
+  EXPECT_EQ(read_scene_text(one, "scene.yaml", {{"bodies.rod.repeat", "3"}}).bodies.size(), 3u);
+}
+
 TEST(Override, AppliesInOrderAndBesideParameters) {
   const Scene scene =
       scene_with({{"run.until", "1 s"}, {"clearance", "0.3 mm"}, {"run.until", "2 s"}, {"joints.pin.clearance.radial", "clearance/3"}});
