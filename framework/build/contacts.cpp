@@ -243,12 +243,17 @@ bool is_never_released(const Scene& scene, const SceneJoint& joint) {
          std::ranges::none_of(scene.events, [&](const SceneEvent& e) { return releases(e.then) || releases(e.otherwise); });
 }
 
+bool deforms(const Scene& scene, const std::string& name) {
+  const auto body = std::ranges::find(scene.bodies, name, &SceneBody::name);
+  return body != scene.bodies.end() && body->elastic;
+}
+
 }  // namespace
 
 BuiltContact build_contact(const Scene& scene, const SceneContact& c, const Profile& a, const Profile& b, const std::array<int, 2>& markers,
                            int first) {
   for (const SceneJoint& j : scene.joints)
-    if (word_of(j).pins && word_of(j).clamps && is_never_released(scene, j) &&
+    if (word_of(j).pins && word_of(j).clamps && is_never_released(scene, j) && !deforms(scene, c.a.body) && !deforms(scene, c.b.body) &&
         std::minmax(j.a.body, j.b.body) == std::minmax(c.a.body, c.b.body))
       throw SceneError(scene.file, c.place,
                        "the weld " + quoted(j.name) + " joins these two bodies rigidly, so they need no contact; leave the contact out");
