@@ -163,7 +163,8 @@ class Manners(unittest.TestCase):
                 self.assertEqual(done.returncode, 2)
                 self.assertNotIn("hidden", done.stderr)
         self.assertIn("other0:1: is a plain text, not a mapping of keys; write keys and values", self.say("run", "other0").stderr)
-        self.assertIn("is it the right file?", self.say("run", "other1").stderr)
+        self.assertIn("other1:2: this is not YAML", self.say("run", "other1").stderr)
+        self.assertIn("is it the right file?", self.say("run", "other2").stderr)
 
     def test_a_study_is_not_run(self):
         (self.place / "study.yaml").write_text("title: many\nscene: swing.pintle.yaml\nmeasure: {e: final x of rod}\n")
