@@ -366,6 +366,7 @@ void ContactEvents::end(int contact, Step& step) {
   State& state = step.to.state;
   const Guard now = gap_of(system_, contact, state);
   log_.end(contact, moment(step, now), -now.rate);
+  opened_[at(contact)] = state.t;
   state.impact_rate[at(contact)] = 0;
   straighten_bristles(system_, contact, state);
 }

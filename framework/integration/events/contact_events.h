@@ -54,7 +54,7 @@ class ContactEvents final : public EventGroup {
   double fixed_step_;         ///< of time-stepping, whose impacts belong to the scheme: they are logged, but are no events; else 0 [s]
   std::vector<int> leaving_;  ///< pairs with pieces of finite extent
   ImpactLog log_;
-  std::vector<double> opened_;     ///< when each rigid contact last opened under its forces [s]
+  std::vector<double> opened_;     ///< when each contact last opened [s]
   double most_pressed_ = 0;        ///< largest normal force of rigid contacts so far [N]
   std::unique_ptr<Equations> eq_;  ///< created at the first impact of rigid bodies
 };

@@ -120,6 +120,22 @@ TEST(ProfileContact, ABoxRestsOnItsTwoCorners) {
   }
 }
 
+// Piled so that they touch just so, and fall as one at first: no gap opens or closes until the floor has pushed.
+TEST(ProfileContact, BoxesThatTouchSettleInAPyramid) {
+  const std::string laws =
+      ", normal: {hunt-crossley: {restitution: 0.3, stiffness: 1e7 N/m^1.5}}, friction: {coulomb: {coefficient: 0.4}}}\n";
+  const Whole w = run(
+      "gravity: [0, -9.81]\nground: {profiles: {floor: {path: [[-1, 0], [2, 0]], material: right}}}\nbodies:\n"
+      "  block: {repeat: 3, rigid: {mass: 0.5, inertia: 4.2e-4}, points: {A: [-(6 - index)*1 cm, -3 cm], B: [(6 - index)*1 cm, -3 cm], "
+      "C: [(6 - index)*1 cm, 3 cm], D: [-(6 - index)*1 cm, 3 cm]}, profiles: {outline: {path: [A, B, C, D], closed: true, round: 2 mm}}, "
+      "pose: {at: [0, (index - 0.5)*6 cm]}}\ncontacts:\n  base: {between: [block 1.outline, ground.floor]" +
+      laws + "  mid: {repeat: 2, between: [\"block {index}.outline\", \"block {index + 1}.outline\"]" + laws + "run: {until: 1 s}\n");
+  expect_sound(w);
+  EXPECT_NEAR(w.last("base.normal [N]"), 1.5 * g, 0.05 * g);
+  EXPECT_NEAR(w.last("mid 2.normal [N]"), 0.5 * g, 0.05 * g);
+  EXPECT_NEAR(w.last("block 3.x [m]"), 0, 1e-3);
+}
+
 TEST(ProfileContact, StaticsFindsTheDepthAtWhichABoxRests) {
   Scene s = scene(box(0));
   s.start_bodies[0].y = 0.05 - resting / 2;
