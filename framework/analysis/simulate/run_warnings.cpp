@@ -22,11 +22,12 @@ void warn_of_depth(const System& system, Run& run) {
   for (std::size_t c = 0; c < deepest.size(); ++c)
     if (const ContactPair& pair = system.contacts[c]; is_rigid(pair)) {
       continue;
-    } else if (deepest[c] > deepest_valid * contact_size(pair, system.length)) {
+    } else if (const double size = contact_size(pair, system.length); deepest[c] > deepest_valid * size) {
+      const char* of = size == system.length ? "the length of the mechanism" : "their smallest radius";  // a rope has no radius
       std::ostringstream s;
       s.precision(3);
       s << "\"" << system.contact_names[c] << "\": the " << (pair.profiles ? "surfaces overlapped by " : "journal went ") << deepest[c]
-        << (pair.profiles ? " m, more than a tenth of their smallest radius" : " m into the wall, more than a tenth of its radius")
+        << (pair.profiles ? std::string(" m, more than a tenth of ") + of : " m into the wall, more than a tenth of its radius")
         << "; no contact law holds there (is the stiffness " << stiffness_text(pair.normal, 3) << " meant?)";
       run.warnings.push_back(s.str());
     } else if (const std::string range = range_warning(pair.normal, deepest[c]); !range.empty()) {
