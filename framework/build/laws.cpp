@@ -101,12 +101,12 @@ std::string named(const Scene& scene, const Law& law, const std::string& name, c
 }
 
 /// A short piece of a law that has too many of them to list, from the longest beginning of the run, by halves, in which they can be listed:
-/// a tenth of them are shorter, as those that a root cuts off. None: 0, as for a C++ function.
+/// a tenth of them are shorter, as those that a root cuts off. None: 0, as for a C++ function, or a law that is rounding at this scale.
 struct ShortPiece {
   double length = 0, until = 0;  ///< [s]
 };
 ShortPiece short_piece(const TimeLaw& law, double until) {
-  constexpr double least = 1e-9;  // of the run
+  constexpr double least = 1e-7;  // of the run
   for (double end = until / 2; end > least * until; end /= 2) {
     const LawScale scale = scale_of(law, end);
     if (!scale.known) continue;
@@ -114,9 +114,24 @@ ShortPiece short_piece(const TimeLaw& law, double until) {
     std::adjacent_difference(scale.pieces.begin(), scale.pieces.end(), std::back_inserter(lengths));
     const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
     std::ranges::nth_element(lengths, tenth);
-    return {*tenth, end};
+    return *tenth > least * until ? ShortPiece{*tenth, end} : ShortPiece{};
   }
   return {};
+}
+
+/// As scale_of, with as many intervals as the beginning of the law lets expect.
+struct ListedLaw {
+  LawScale scale;
+  ShortPiece piece;  ///< if the scale is not known
+};
+ListedLaw listed(const TimeLaw& law, double until) {
+  constexpr double most = 2e5, looks_at_each = 50;  // pieces; to find its ends
+  ListedLaw out{scale_of(law, until), {}};
+  if (out.scale.known) return out;
+  out.piece = short_piece(law, until);
+  if (const double pieces = until / out.piece.length; out.piece.length > 0 && pieces < most)
+    out.scale = scale_of(law, until, static_cast<int>(looks_at_each * pieces));
+  return out;
 }
 
 /// Adds the times at which a comparison of t alone, given as a difference, is zero: steps end there, to the last digit.
@@ -126,7 +141,7 @@ void end_at_zeros(const TimeLaw& difference, double until, std::vector<LawChange
   Program above = *program;
   above.code.push_back({Op::constant, 0});
   above.code.push_back({Op::greater});
-  for (const LawBreak& b : scale_of(above, until).breaks) {
+  for (const LawBreak& b : listed(above, until).scale.breaks) {
     const bool rises = difference(b.after).value > 0;
     double t = b.before;
     while (t < b.after && (rises ? difference(t).value < 0 : difference(t).value > 0)) t = std::nextafter(t, b.after);
@@ -190,12 +205,13 @@ std::vector<std::string> follow_laws(const Scene& scene, Scheme& scheme) {
   if (run.max_step > 0) scheme.max_step = run.max_step;
   if (!scene.has_run) return warnings;
   bool known = true;
-  const auto list = [&](LawScale scale, const TimeLaw& of_time, const auto& breaks_motion, const auto& said) {
+  const auto list = [&](ListedLaw law, const TimeLaw& of_time, const auto& breaks_motion, const auto& said) {
+    auto& [scale, piece] = law;
     for (const LawBreak& b : scale.breaks) scheme.changes.push_back({b.before, b.after, breaks_motion(b)});
     scheme.bends.push_back(bends_of(of_time, scale.pieces));
+    const bool is_known = scale.known;
     if (scale.pieces.size() > 1) scheme.pieces.push_back(std::move(scale.pieces));
-    if (scale.known || run.max_step > 0) return;
-    const ShortPiece piece = short_piece(of_time, run.until);
+    if (is_known || run.max_step > 0) return;
     known = known && piece.length > 0;
     if (piece.length == 0) return;
     scheme.max_step = std::min(scheme.max_step, piece.length / 2);
@@ -205,14 +221,14 @@ std::vector<std::string> follow_laws(const Scene& scene, Scheme& scheme) {
   };
   each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver* driver) {
     if (stands_still(law, run.until)) return;
-    LawScale scale = scale_of(law.at, run.until);
-    validate_finite(scene, law, place, scale, driver != nullptr);
-    if (driver) validate_jumps(scene, *driver, scale);
+    ListedLaw here = listed(law.at, run.until);
+    validate_finite(scene, law, place, here.scale, driver != nullptr);
+    if (driver) validate_jumps(scene, *driver, here.scale);
     const auto breaks_motion = [&](const LawBreak& b) { return driver ? accelerates_anew(b) : value_jumps(b); };
-    list(std::move(scale), law.at, breaks_motion, [&] { return named(scene, law, name, place); });
+    list(std::move(here), law.at, breaks_motion, [&] { return named(scene, law, name, place); });
   });
   each_switch_of_time(scene, [&](const TimeLaw& of_time, const Law& law, const std::string& name, const Place& place) {
-    list(scale_of(of_time, run.until), of_time, value_jumps, [&] { return "a condition in " + named(scene, law, name, place); });
+    list(listed(of_time, run.until), of_time, value_jumps, [&] { return "a condition in " + named(scene, law, name, place); });
   });
   for (const SceneEvent& e : scene.events)
     for (const Law& law : e.when)

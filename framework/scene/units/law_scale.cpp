@@ -12,10 +12,9 @@ namespace pintle {
 
 namespace {
 
-constexpr double part = 1e-3;           // relative to the law's range: smaller features are ignored
-constexpr double known_to = 1e-12;      // accuracy of its values, limited by rounding
-constexpr double narrowest = 1e-13;     // relative to the time, or to the run: smallest interval
-constexpr int most_intervals = 40'000;  // evaluated for one law
+constexpr double part = 1e-3;        // relative to the law's range: smaller features are ignored
+constexpr double known_to = 1e-12;   // accuracy of its values, limited by rounding
+constexpr double narrowest = 1e-13;  // relative to the time, or to the run: smallest interval
 
 double roundings(double t, int n) { return n * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-300); }
 
@@ -46,7 +45,7 @@ struct Root {
 /// Finds where a formula's switches change sign or touch zero.
 class Roots {
  public:
-  Roots(const Program& program, double until) : program_(program), until_(until) {}
+  Roots(const Program& program, double until, int most) : program_(program), until_(until), most_(most) {}
 
   /// @returns false if there are too many
   bool find() {
@@ -82,7 +81,7 @@ class Roots {
     const bool step_end = program_.code[s.instruction].op == Op::smooth;
     std::vector<std::pair<double, double>> left{{from, to}};
     while (!left.empty()) {
-      if (++looks_ > most_intervals) return false;
+      if (++looks_ > most_) return false;
       const auto [a, b] = left.back();
       left.pop_back();
       const RangeJet r = range(s, a, b);
@@ -130,7 +129,7 @@ class Roots {
 
   const Program& program_;
   double until_;
-  int looks_ = 0;
+  int most_, looks_ = 0;
   Machine<Jet> jets_;
   Machine<RangeJet> ranges_;
   std::vector<Root> all_;
@@ -168,13 +167,13 @@ class Sampling {
  public:
   Sampling(const Program& program, const TimeLaw& law, Spread& spread) : program_(program), law_(law), spread_(spread) {}
   void begin(double a, double b) { look(a, b); }
-  bool refine(double until) {
+  bool refine(double until, int most) {
     int looks = 0;
     while (!queue_.empty() && queue_.top().hidden > spread_.little()) {
       const Cell c = queue_.top();
       queue_.pop();
       if (c.b - c.a <= narrowest * std::max(c.b, until)) continue;
-      if (++looks > most_intervals / 8) return false;
+      if (++looks > most / 8) return false;
       look(c.a, c.a + (c.b - c.a) / 2);
       look(c.a + (c.b - c.a) / 2, c.b);
     }
@@ -230,9 +229,9 @@ double hermite(const Sample& from, const Sample& to, double t) {
 
 /// Halves [a, b] recursively until each part is the polynomial through its ends, to the accuracy needed.
 /// @returns false where that needs too many parts
-bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until,
+bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& samples, double little, double until, int most,
             std::vector<double>& ends) {
-  if (ends.size() > most_intervals) return false;
+  if (static_cast<int>(ends.size()) > most) return false;
   constexpr int looks = 8;
   const Sample from{a, law(a)}, to{b, law(b)};
   const auto off = [&](double t, double value) { return !(std::abs(hermite(from, to, t) - value) <= little); };
@@ -248,7 +247,7 @@ bool divide(const TimeLaw& law, double a, double b, const std::vector<Sample>& s
     return true;
   }
   const double middle = a + (b - a) / 2;
-  return divide(law, a, middle, samples, little, until, ends) && divide(law, middle, b, samples, little, until, ends);
+  return divide(law, a, middle, samples, little, until, most, ends) && divide(law, middle, b, samples, little, until, most, ends);
 }
 
 /// The largest value, rate and acceleration in a few samples: the scale of a difference.
@@ -271,9 +270,9 @@ bool goes_on(const LawBreak& b, const Jet& size) {
          same(b.left.accel, b.right.accel, size.accel, 1e-6);
 }
 
-LawScale of_formula(const Program& program, const TimeLaw& law, double until) {
+LawScale of_formula(const Program& program, const TimeLaw& law, double until, int most) {
   LawScale out;
-  Roots roots(program, until);
+  Roots roots(program, until, most);
   if (!roots.find()) return out;
   const Jet size = size_of(law, until);
   Spread spread(law, until);
@@ -289,19 +288,19 @@ LawScale of_formula(const Program& program, const TimeLaw& law, double until) {
   }
   between.emplace_back(begin, until);
   for (const auto& [a, b] : between) sampling.begin(a, b);
-  const bool fine = sampling.refine(until);
+  const bool fine = sampling.refine(until, most);
   LawScale unknown;
   out.not_finite = unknown.not_finite = spread.not_finite();
   if (!fine) return unknown;
   for (const auto& [a, b] : between)
-    if (!divide(law, a, b, sampling.samples(), spread.little(), until, out.pieces)) return unknown;
+    if (!divide(law, a, b, sampling.samples(), spread.little(), until, most, out.pieces)) return unknown;
   out.fastest = spread.fastest();
   out.known = true;
   return out;
 }
 
 // Only those kinks of a polyline that matter over the next samples; a spline has none.
-LawScale of_samples(const Samples& s, bool linear, const TimeLaw& law, double until) {
+LawScale of_samples(const Samples& s, bool linear, const TimeLaw& law, double until, int most) {
   LawScale out;
   Spread spread(law, until);
   std::vector<Sample> samples;
@@ -313,11 +312,11 @@ LawScale of_samples(const Samples& s, bool linear, const TimeLaw& law, double un
     if (!(t > 0 && t < until)) continue;
     const LawBreak b{t - roundings(t, 4), t + roundings(t, 4), law(t - roundings(t, 4)), law(t + roundings(t, 4))};
     if (std::abs(b.right.rate - b.left.rate) * h <= spread.little()) continue;
-    if (!divide(law, begin, b.before, samples, spread.little(), until, out.pieces)) return {};
+    if (!divide(law, begin, b.before, samples, spread.little(), until, most, out.pieces)) return {};
     begin = b.after;
     out.breaks.push_back(b);
   }
-  if (!divide(law, begin, until, samples, spread.little(), until, out.pieces)) return {};
+  if (!divide(law, begin, until, samples, spread.little(), until, most, out.pieces)) return {};
   out.fastest = spread.fastest();
   out.known = true;
   return out;
@@ -325,11 +324,11 @@ LawScale of_samples(const Samples& s, bool linear, const TimeLaw& law, double un
 
 }  // namespace
 
-LawScale scale_of(const TimeLaw& law, double until) {
+LawScale scale_of(const TimeLaw& law, double until, int most) {
   if (!(until > 0)) return {};
-  if (const auto* program = law.target<Program>()) return of_formula(*program, law, until);
-  if (const auto* spline = law.target<Spline>()) return of_samples(spline->samples(), false, law, until);
-  if (const auto* polyline = law.target<Polyline>()) return of_samples(polyline->samples(), true, law, until);
+  if (const auto* program = law.target<Program>()) return of_formula(*program, law, until, most);
+  if (const auto* spline = law.target<Spline>()) return of_samples(spline->samples(), false, law, until, most);
+  if (const auto* polyline = law.target<Polyline>()) return of_samples(polyline->samples(), true, law, until, most);
   return {};
 }
 

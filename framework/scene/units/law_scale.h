@@ -25,7 +25,8 @@ struct LawScale {
 /// For a formula, from its parts: roots of what its conditions, abs, min, max and step compare, and bounds of its rate over intervals, so
 /// that no pulse is missed, however short; for a table from its samples. Features smaller than a thousandth of the law's range around its
 /// mean slope are ignored. Unknown for a C++ function.
-LawScale scale_of(const TimeLaw&, double until);
+/// @param most  how many intervals are looked at
+LawScale scale_of(const TimeLaw&, double until, int most = 40'000);
 
 /// The value jumps, or the speed does. @param fastest  largest |rate| of the law elsewhere
 bool value_jumps(const LawBreak&);
