@@ -185,22 +185,23 @@ const char* FrictionEvents::fault() const {
 
 void FrictionEvents::start(Step& step) {
   see_motion(std::max(expected_speed(system_), speed_of_motion(system_, step.to.state)), fastest_);
-  decide(step.to.state, {});
+  decide(step.to.state, {}, {});
 }
 
 EventOutcome FrictionEvents::act(int event, Step& step, const Guard&) {
   const std::size_t k = place(event);
   const bool breaks_away = !of_sliding(event) && step.to.state.friction[k].direction == 0;
-  if (decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt)) return {.change = EventOutcome::Change::jump};
+  if (decide(step.to.state, breaks_away ? std::optional(k) : std::nullopt, of_sliding(event) ? std::optional(k) : std::nullopt))
+    return {.change = EventOutcome::Change::jump};
   return {.failure =
               name(event) +
               ": no forces of the rigid contacts let the motion continue, as when a rod that slides on its tip jams (Painlevé); give "
               "the contact a law with a stiffness, or less friction"};
 }
 
-// Friction that slid until now and that no force can hold slides in the opposite direction. Where a driver moves it from rest, it is
-// undecided, and without force, until it moves.
-void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
+// Friction that no force can hold slides in the opposite direction once its slip has reached zero; at events of others it stays as it is.
+// Where a driver moves it from rest, it is undecided, and without force, until it moves.
+void FrictionEvents::pass_dead_centres(const Resting& resting, std::optional<std::size_t> ended, State& state) {
   constexpr double dead = 1e-4;
   pose(system_, state.t, state.y, *eq_);
   factor(system_, state.y, *eq_);
@@ -213,7 +214,7 @@ void FrictionEvents::pass_dead_centres(const Resting& resting, State& state) {
     const auto column = std::ranges::find_if(of, [&](const auto& c) { return c.at == resting.at[i] && !c.normal; }) - of.begin();
     const double by_force = leverage(system_, *eq_, column);
     if (std::abs(resting.came[i]) == 1 && by_force < dead)
-      state.friction[resting.at[i]].direction = -resting.came[i];
+      state.friction[resting.at[i]].direction = resting.at[i] == ended ? -resting.came[i] : resting.came[i];
     else if (by_force == 0 && !of_rigid(resting.at[i]))
       state.friction[resting.at[i]].direction = DryFriction::undecided;
   }
@@ -289,12 +290,12 @@ bool FrictionEvents::decide_rigid_ones(State& state, bool at_limit) {
 }
 
 // While forces exceed their limits, makes the friction with the largest ratio slide, in the direction opposite to its holding force.
-bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips) {
+bool FrictionEvents::decide(State& state, std::optional<std::size_t> slips, std::optional<std::size_t> ended) {
   constexpr double little = 1e-9, nearly = 1e-6;
   const Resting resting = classify(state, slips);
   if (resting.at.empty() && !resting.rigid) return true;
   if (!eq_) eq_ = std::make_unique<Equations>(system_);
-  pass_dead_centres(resting, state);
+  pass_dead_centres(resting, ended, state);
   Eigen::VectorXd dy(system_.n_y());
   for (std::size_t tries = 0; tries < 4 * resting.at.size() + 4; ++tries) {
     if (!evaluate(system_, state, *eq_, dy)) return !resting.rigid;

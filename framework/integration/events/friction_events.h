@@ -47,9 +47,10 @@ class FrictionEvents final : public EventGroup {
     bool rigid = false;  ///< some rigid contact is closed
   };
   Resting classify(State&, std::optional<std::size_t> slips) const;
-  void pass_dead_centres(const Resting&, State&);
+  void pass_dead_centres(const Resting&, std::optional<std::size_t> ended, State&);
   bool decide_rigid_ones(State&, bool at_limit);
-  bool decide(State&, std::optional<std::size_t> slips);  ///< false: no forces of the rigid contacts are found
+  /// Of which friction the holding force reached its limit, or the sliding ended. @returns false if rigid contacts find no forces
+  bool decide(State&, std::optional<std::size_t> slips, std::optional<std::size_t> ended);
 
   const System& system_;
   double tolerance_;
