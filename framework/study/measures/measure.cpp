@@ -57,6 +57,9 @@ class Measuring {
     Signal all = signal();
     if (all.y.empty()) return nan;
     all.t = columns_.times();
+    for (const Impact& i : run_.impacts)
+      if (is_rigid(model_.system.contacts[static_cast<std::size_t>(i.contact)])) all.jumps.push_back(i.begin);
+    std::ranges::sort(all.jumps);
     if (all.t.back() < to - slack) return nan;  // the last rows are missing
     if (asked_.instant) return value_at(all, from);
     if (asked_.statistic == Statistic::none && !asked_.frequency)  // cumulative quantities

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 #include <numbers>
 
 #include <Eigen/Dense>
@@ -36,6 +37,13 @@ struct Cubic {
 };
 
 Cubic piece(const Signal& x, std::size_t i) { return {x.y[i], x.y[i + 1], x.rate[i], x.rate[i + 1], x.t[i + 1] - x.t[i]}; }
+
+/// What the rows beside a jump of the rate in this interval say of the value there; nothing without such a jump.
+std::optional<Extreme> at_jump(const Signal& x, std::size_t i) {
+  const auto jump = std::ranges::upper_bound(x.jumps, x.t[i]);
+  if (jump == x.jumps.end() || *jump >= x.t[i + 1]) return std::nullopt;
+  return Extreme{std::max(x.y[i] + x.rate[i] * (*jump - x.t[i]), x.y[i + 1] - x.rate[i + 1] * (x.t[i + 1] - *jump)), *jump};
+}
 
 /// The row at or before t, never the last.
 std::size_t row_before(const Signal& x, double t) {
@@ -122,7 +130,7 @@ double value_at(const Signal& x, double t) {
 }
 
 Signal between(const Signal& x, double from, double to) {
-  Signal out{{}, {}, {}, x.smooth, x.magnitude};
+  Signal out{{}, {}, {}, x.smooth, x.magnitude, x.jumps};
   const auto add = [&](double t, double y, double rate) {
     out.t.push_back(t), out.y.push_back(y);
     if (!x.rate.empty()) out.rate.push_back(rate);
@@ -141,8 +149,10 @@ Extreme greatest(const Signal& x) {
   Extreme best{x.y[i], x.t[i]};
   if (!x.rate.empty()) {
     for (std::size_t k = i > 0 ? i - 1 : 0; k <= i && k + 1 < x.y.size(); ++k) {
+      const std::optional<Extreme> jump = at_jump(x, k);
+      if (jump && jump->value > best.value) best = *jump;
       const Cubic c = piece(x, k);
-      for (const double s : c.turns())
+      for (const double s : jump ? std::vector<double>{} : c.turns())
         if (c(s) > best.value) best = {c(s), x.t[k] + s * c.h};
     }
   } else if (x.smooth && i > 0 && i + 1 < x.y.size()) {

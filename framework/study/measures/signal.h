@@ -6,10 +6,11 @@
 namespace pintle {
 
 struct Signal {
-  std::vector<double> t, y;       ///< t strictly increasing
-  std::vector<double> rate = {};  ///< dy/dt at each row, if known
-  bool smooth = true;             ///< a peak between rows can be found with a parabola through three rows
-  bool magnitude = false;         ///< never negative
+  std::vector<double> t, y;        ///< t strictly increasing
+  std::vector<double> rate = {};   ///< dy/dt at each row, if known
+  bool smooth = true;              ///< a peak between rows can be found with a parabola through three rows
+  bool magnitude = false;          ///< never negative
+  std::vector<double> jumps = {};  ///< times at which the rate may jump, in order: blows of rigid bodies
 };
 
 struct Extreme {
@@ -21,7 +22,8 @@ struct Extreme {
 double value_at(const Signal&, double t);
 /// The part from `from` to `to`, with values at both ends. @pre the rows cover it
 Signal between(const Signal&, double from, double to);
-/// Largest value and its time: between rows by cubics where rates are known, by a parabola where the signal is smooth. The error of the
+/// Largest value and its time: between rows by cubics where rates are known, or by lines from the rows beside a jump of the rate, or by a
+/// parabola where the signal is smooth. The error of the
 /// sampled peak of a sine, (pi/n)^2/2 of its amplitude with n rows per period, is thus reduced to less than (pi/n)^4.
 Extreme greatest(const Signal&);
 Extreme least(const Signal&);

@@ -39,6 +39,21 @@ TEST(Signal, PeaksBetweenRowsHaveFourthOrder) {
   }
 }
 
+// A position at a stop, from which a body bounces: the cubic would turn before it.
+TEST(Signal, PeaksWhereTheRateJumpsAreReached) {
+  constexpr double hit = 0.537;
+  Signal s = sampled(
+      20, 1, [](double t) { return 3 - std::abs(t - hit); }, [](double t) { return t < hit ? 1.0 : -1.0; });
+  EXPECT_LT(greatest(s).value, 2.995);
+  s.jumps = {0.2, hit, 0.9};
+  EXPECT_NEAR(greatest(s).value, 3, 1e-15);
+  EXPECT_EQ(greatest(s).at, hit);
+  for (double& y : s.y) y = -y;
+  for (double& rate : s.rate) rate = -rate;
+  EXPECT_NEAR(least(s).value, -3, 1e-15);
+  EXPECT_NEAR(greatest(between(s, 0.5, 0.6)).value, -3 + 0.063, 1e-15);
+}
+
 TEST(Signal, FrequencyOfAToneIsFoundHoweverItIsCut) {
   for (const double periods : {2.0, 3.3, 7.77, 50.25, 400.1})
     for (const double phase : {0.0, 0.9, 2.2}) {
