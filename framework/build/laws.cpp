@@ -94,7 +94,7 @@ void each_switch_of_time(const Scene& scene, F f) {
 }
 
 /// A law as messages name it.
-std::string named(const Scene& scene, const Law& law, const std::string& name, const Place& place) {
+std::string name_in_messages(const Scene& scene, const Law& law, const std::string& name, const Place& place) {
   const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : std::string();
   return "the law" + (law.text.empty() ? "" : " " + law.text) + " of \"" + name + "\" (" + (place.file.empty() ? scene.file : place.file) +
          line + ")";
@@ -122,9 +122,9 @@ ShortPiece short_piece(const TimeLaw& law, double until) {
 /// As scale_of, with as many intervals as the beginning of the law lets expect.
 struct ListedLaw {
   LawScale scale;
-  ShortPiece piece;  ///< if the scale is not known
+  ShortPiece piece;  ///< unless the first look lists it
 };
-ListedLaw listed(const TimeLaw& law, double until) {
+ListedLaw listed_law(const TimeLaw& law, double until) {
   constexpr double most = 2e5, looks_at_each = 50;  // pieces; to find its ends
   ListedLaw out{scale_of(law, until), {}};
   if (out.scale.known) return out;
@@ -141,7 +141,7 @@ void end_at_zeros(const TimeLaw& difference, double until, std::vector<LawChange
   Program above = *program;
   above.code.push_back({Op::constant, 0});
   above.code.push_back({Op::greater});
-  for (const LawBreak& b : listed(above, until).scale.breaks) {
+  for (const LawBreak& b : listed_law(above, until).scale.breaks) {
     const bool rises = difference(b.after).value > 0;
     double t = b.before;
     while (t < b.after && (rises ? difference(t).value < 0 : difference(t).value > 0)) t = std::nextafter(t, b.after);
@@ -221,14 +221,15 @@ std::vector<std::string> follow_laws(const Scene& scene, Scheme& scheme) {
   };
   each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver* driver) {
     if (stands_still(law, run.until)) return;
-    ListedLaw here = listed(law.at, run.until);
+    ListedLaw here = listed_law(law.at, run.until);
     validate_finite(scene, law, place, here.scale, driver != nullptr);
     if (driver) validate_jumps(scene, *driver, here.scale);
     const auto breaks_motion = [&](const LawBreak& b) { return driver ? accelerates_anew(b) : value_jumps(b); };
-    list(std::move(here), law.at, breaks_motion, [&] { return named(scene, law, name, place); });
+    list(std::move(here), law.at, breaks_motion, [&] { return name_in_messages(scene, law, name, place); });
   });
   each_switch_of_time(scene, [&](const TimeLaw& of_time, const Law& law, const std::string& name, const Place& place) {
-    list(listed(of_time, run.until), of_time, value_jumps, [&] { return "a condition in " + named(scene, law, name, place); });
+    list(listed_law(of_time, run.until), of_time, value_jumps,
+         [&] { return "a condition in " + name_in_messages(scene, law, name, place); });
   });
   for (const SceneEvent& e : scene.events)
     for (const Law& law : e.when)
@@ -245,7 +246,7 @@ std::string explain_laws(const Scene& scene, double t) {
   std::string out;
   each_law(scene, [&](const Law& law, const std::string& name, const Place& place, const SceneDriver*) {
     if (!out.empty() || scale_of(law.at, scene.run.until).known) return;
-    const std::string which = named(scene, law, name, place) + " ";
+    const std::string which = name_in_messages(scene, law, name, place) + " ";
     const Jet now = law.at(t), then = law.at(t + 1e-9 * scene.run.until);
     double before = 0;
     for (int i = 0; i < looks; ++i) {

@@ -18,18 +18,18 @@ std::string remedy(const std::string& text) {
 }
 
 /// The events of libyaml's parser, one at a time.
-class Events {
+class YamlEvents {
  public:
-  Events(const std::string& text, const std::string& file) : text_(text), file_(file) {
+  YamlEvents(const std::string& text, const std::string& file) : text_(text), file_(file) {
     if (yaml_parser_initialize(&parser_) == 0) throw std::bad_alloc();
     yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
   }
-  ~Events() {
+  ~YamlEvents() {
     yaml_event_delete(&event_);
     yaml_parser_delete(&parser_);
   }
-  Events(const Events&) = delete;
-  Events& operator=(const Events&) = delete;
+  YamlEvents(const YamlEvents&) = delete;
+  YamlEvents& operator=(const YamlEvents&) = delete;
 
   /// @returns the next event, valid until the next call
   /// @throws SceneError  the text is not YAML
@@ -187,7 +187,7 @@ class TreeBuilder {
 }  // namespace
 
 Yaml parse_yaml(const std::string& text, const std::string& file) {
-  Events events(text, file);
+  YamlEvents events(text, file);
   TreeBuilder builder(file);
   for (bool more = true; more;) {
     const yaml_event_t& event = events.next();
