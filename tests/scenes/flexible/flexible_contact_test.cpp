@@ -130,6 +130,27 @@ TEST(FlexibleContactOfRims, AHoleIsTheBearingOfAClearance) {
     EXPECT_LT(relative_difference(profiles.column(name), clearance.column(name)), 1e-7) << name;
 }
 
+// A leaf that is let go strikes a stop on the ground to which it is clamped; a rigid body needs no such contact.
+TEST(FlexibleContactWithItsClamp, ALeafStrikesAStopBesideItsClamp) {
+  const std::string
+      rest =
+          "    profiles: {head: {disc: B, radius: 5 mm}}\n"
+          "ground: {profiles: {stop: {path: [[0.15, -6 mm], [0.25, -6 mm]], material: right}}}\njoints: {w: {weld: [ground, leaf.A]}}\n"
+          "contacts: {hit: {between: [leaf.head, ground.stop], normal: {hunt-crossley: {restitution: 0.5, stiffness: 1e8 N/m^1.5}}}}\n",
+      run_it = "start: {leaf: {deflection: {B: [0, 5 mm]}}}\nrun: {until: 20 ms}\noutput: {every: 1 ms, frames: 0}\n";
+  const Whole w =
+      run("bodies:\n  leaf:\n    beam: {from: A, to: B, section: {rectangle: [2 mm, 20 mm]}, young: 207 GPa, poisson: 0.3, density: 7850 "
+          "kg/m^3, theory: euler}\n    points: {A: [0, 0], B: [0.2, 0]}\n    modes: {frame: {tangent: A}, craig-bampton: {count: 4}}\n" +
+          rest + run_it);
+  pintle_scenes::expect_sound(w);
+  EXPECT_GT(w.run.impacts.size(), 0u);
+  expect_refused(
+      [&] {
+        run("bodies:\n  leaf:\n    rigid: {mass: 1, inertia: 0.01}\n    points: {A: [0, 0], B: [0.2, 0]}\n" + rest + "run: {until: 1}\n");
+      },
+      {"the weld \"w\" joins these two bodies rigidly"});
+}
+
 TEST(FlexibleContactRefusals, NameTheCarrier) {
   const auto of = [](const std::string& nose) {
     return [nose] { run(with(Leaf{.nose = nose, .bodies = weight, .rest = falls}.text(false), "LAW", "model: impact, restitution: 0")); };
