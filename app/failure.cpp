@@ -69,7 +69,7 @@ int report_failure() {
 }
 
 int run_program(int argc, char** argv, int (*carry_out)(int, char**)) {
-  shed_library_threads(argv);
+  shed_library_threads();
   leave_failed_writes_to_us();
   end_on_signals();
   try {

@@ -1,8 +1,8 @@
-# Debian's SuiteSparse 5.12 ships no CMake configuration. Gives SuiteSparse::SuiteSparse
-# (CHOLMOD, KLU, LDL; and SPQR as the component spqr).
+# Debian's SuiteSparse 5.12 ships no CMake configuration. Gives SuiteSparse::SuiteSparse (KLU, LDL, AMD), and
+# SuiteSparse_ON_DEMAND: the name by which CHOLMOD, or with the component spqr SPQR, is loaded when it is needed. Either loads LAPACK.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(_libs)
-foreach(lib ${SuiteSparse_FIND_COMPONENTS} cholmod klu ldl amd colamd suitesparseconfig)
+foreach(lib ${SuiteSparse_FIND_COMPONENTS} cholmod klu ldl amd suitesparseconfig)
   find_library(SuiteSparse_${lib} ${lib})
   list(APPEND _libs SuiteSparse_${lib})
 endforeach()
@@ -11,7 +11,12 @@ find_package_handle_standard_args(SuiteSparse REQUIRED_VARS SuiteSparse_INCLUDE_
 if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::SuiteSparse)
   add_library(SuiteSparse::SuiteSparse INTERFACE IMPORTED)
   target_include_directories(SuiteSparse::SuiteSparse SYSTEM INTERFACE ${SuiteSparse_INCLUDE_DIR})
-  foreach(lib ${_libs})
-    target_link_libraries(SuiteSparse::SuiteSparse INTERFACE ${${lib}})
-  endforeach()
+  target_link_libraries(SuiteSparse::SuiteSparse INTERFACE
+    ${SuiteSparse_klu} ${SuiteSparse_ldl} ${SuiteSparse_amd} ${SuiteSparse_suitesparseconfig})
+endif()
+if(SuiteSparse_FOUND)
+  list(GET _libs 0 _largest)
+  file(REAL_PATH ${${_largest}} SuiteSparse_ON_DEMAND)
+  cmake_path(GET SuiteSparse_ON_DEMAND FILENAME SuiteSparse_ON_DEMAND)
+  string(REGEX REPLACE "([.]so[.][0-9]+)[.].*" "\\1" SuiteSparse_ON_DEMAND ${SuiteSparse_ON_DEMAND})
 endif()

@@ -25,6 +25,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "planar flexible mechanisms with real jo
  friction, flexible links by finite elements, gears, belts, cams, events;
  statics, kinematics, inverse dynamics, linearisation, sweeps and fits.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libcholmod3, libspqr2, libopenblas0 | liblapack3")  # loaded on demand
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libpintle-dev, paraview, python3-pintle, xdg-utils")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpintle-dev)
@@ -33,7 +34,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "planar flexible mechanisms with rea
  then link pintle::pintle.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "${program}, libeigen3-dev, libsuitesparse-dev, libopenblas-dev | liblapack-dev, liblz4-dev, libnlopt-dev, libyaml-dev")
+  "${program}, libeigen3-dev, libsuitesparse-dev, liblz4-dev, libnlopt-dev, libyaml-dev")
 
 if(TARGET pintle_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pintle)

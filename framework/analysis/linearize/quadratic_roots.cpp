@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "framework/common/dense.h"
-#include "framework/component/eigen/lapack.h"
+#include "framework/common/lapack.h"
 
 namespace pintle {
 

@@ -15,6 +15,7 @@
 #include "framework/common/some_of.h"
 #include "framework/common/library_threads.h"
 #include "framework/common/value_writer.h"
+#include "framework/dynamics/solvers/sparse_ldl.h"
 
 namespace pintle {
 
@@ -269,6 +270,11 @@ std::vector<std::string> differing(const Json& one, const Json& other) {
   return out;
 }
 
+bool uses_blas(const System& system) {
+  const auto flexible = [](const Body& body) { return body.modes() > 0; };
+  return std::max(system.n(), system.n_rows()) > SparseLdl::few || std::ranges::any_of(system.bodies, flexible);
+}
+
 }  // namespace
 
 std::string identity(const Scene& scene, const Model& model, const Assembly& assembly) {
@@ -279,7 +285,7 @@ std::string identity(const Scene& scene, const Model& model, const Assembly& ass
                  {"files", files},
                  {"mechanism", sum_of(model, assembly)},
                  {"program", PINTLE_VERSION ", compiled by " __VERSION__},
-                 {"blas", library_text()}};
+                 {"blas", uses_blas(model.system) ? library_text() : "not used"}};
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

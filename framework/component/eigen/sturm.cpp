@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/component/eigen/factor.h"
-#include "framework/component/eigen/lapack.h"
+#include "framework/common/lapack.h"
 
 namespace pintle {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/component/eigen/lapack.h"
+#include "framework/common/lapack.h"
 
 namespace pintle {
 

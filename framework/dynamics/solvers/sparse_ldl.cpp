@@ -1,5 +1,6 @@
 #include "framework/dynamics/solvers/sparse_ldl.h"
 
+#include <amd.h>
 #include <cholmod.h>
 extern "C" {  // this header has no C++ guards
 #include <ldl.h>
@@ -44,48 +45,51 @@ std::vector<Pattern::Place> permuted(const std::vector<Pattern::Place>& places, 
   return out;
 }
 
-// The order that CHOLMOD chooses.
 struct Order {
-  explicit Order(int size) : n(size) {
-    cholmod_start(&common);
-    common.print = 0;
-#ifdef PINTLE_WITHOUT_GPL
-    common.supernodal = CHOLMOD_SIMPLICIAL;
-#else
-    common.supernodal_switch = SparseLdl::thick;
-#endif
-  }
-  ~Order() { cholmod_finish(&common); }
-  Order(const Order&) = delete;
-  Order& operator=(const Order&) = delete;
-
-  void find(Pattern p) {
-    cholmod_sparse A = upper(p, nullptr);
-    const SuiteSparseMemory memory;
-    cholmod_factor* found = cholmod_analyze(&A, &common);
-    if (!found) throw std::bad_alloc();
-    const int* perm = static_cast<const int*>(found->Perm);
-    order.assign(perm, perm + n);
-    thick = found->is_super != 0;
-    cholmod_free_factor(&found, &common);
-    memory.require();
-  }
-
-  int n;
-  cholmod_common common;
-  std::vector<int> order;
-  bool thick = false;
+  std::vector<int> order;  ///< order[k]: eliminated k-th
+  double nonzeros;         ///< of L
+  bool thick;
 };
+
+/// For few unknowns, so that CHOLMOD is not loaded for them.
+Order order_by_amd(const Pattern& p) {
+  Order out{std::vector<int>(at(p.size())), 0, false};
+  double info[AMD_INFO];
+  if (amd_order(p.size(), p.column_begin.data(), p.row.data(), out.order.data(), nullptr, info) < AMD_OK) throw std::bad_alloc();
+  out.nonzeros = info[AMD_LNZ] + p.size();
+  return out;
+}
+
+Order order_by_cholmod(Pattern p) {
+  struct Common : cholmod_common {
+    Common() { cholmod_start(this); }
+    ~Common() { cholmod_finish(this); }
+  } common;
+  common.print = 0;
+#ifdef PINTLE_WITHOUT_GPL
+  common.supernodal = CHOLMOD_SIMPLICIAL;
+#else
+  common.supernodal_switch = SparseLdl::thick;
+#endif
+  cholmod_sparse A = upper(p, nullptr);
+  const SuiteSparseMemory memory;
+  cholmod_factor* found = cholmod_analyze(&A, &common);
+  if (!found) throw std::bad_alloc();
+  const int* perm = static_cast<const int*>(found->Perm);
+  Order out{{perm, perm + p.size()}, common.lnz, found->is_super != 0};
+  cholmod_free_factor(&found, &common);
+  memory.require();
+  return out;
+}
+
+Order find_order(const Pattern& p) { return p.size() <= SparseLdl::few ? order_by_amd(p) : order_by_cholmod(p); }
 
 }  // namespace
 
 struct SparseLdl::Data {
-  explicit Data(int size) : n(size), x(at(size)) {
-    cholmod_start(&common);
-    common.print = 0;
-    common.quick_return_if_not_posdef = 1;
-  }
+  explicit Data(int size) : n(size), x(at(size)) {}
   ~Data() {
+    if (!started) return;
     cholmod_free_factor(&blocks, &common);
     cholmod_free_dense(&result, &common);
     cholmod_free_dense(&y, &common);
@@ -96,6 +100,10 @@ struct SparseLdl::Data {
   Data& operator=(const Data&) = delete;
 
   void analyse_blocks() {
+    cholmod_start(&common);
+    started = true;
+    common.print = 0;
+    common.quick_return_if_not_posdef = 1;
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_NATURAL;
     common.postorder = 0;
@@ -188,7 +196,6 @@ struct SparseLdl::Data {
   }
 
   int n;
-  cholmod_common common;
   Pattern pattern;                   ///< upper triangle, permuted
   std::vector<int> order, diagonal;  ///< order[k]: row eliminated k-th
   std::vector<double> x;
@@ -198,6 +205,8 @@ struct SparseLdl::Data {
   std::vector<int> parent, flag, count, begin, row, stack;
   std::vector<double> L, D, work;
   // thick
+  cholmod_common common;
+  bool started = false;  ///< common
   cholmod_factor* blocks = nullptr;
   cholmod_dense *result = nullptr, *y = nullptr, *e = nullptr;
 };
@@ -206,19 +215,16 @@ std::vector<int> fill_reducing_order(int size, std::vector<Pattern::Place> place
   for (Pattern::Place& p : places) p = {std::min(p.row, p.column), std::max(p.row, p.column)};
   for (int i = 0; i < size; ++i) places.push_back({i, i});
   std::vector<int> where;
-  Order order(size);
-  order.find(compress(size, places, where));
-  return order.order;
+  return find_order(compress(size, places, where)).order;
 }
 
 SparseLdl::SparseLdl(int size, const std::vector<Pattern::Place>& places, std::vector<int>& where) : data_(std::make_unique<Data>(size)) {
   Data& d = *data_;
   std::vector<int> new_index(at(size));
   for (int i = 0; i < size; ++i) new_index[at(i)] = i;
-  Order order(size);
-  order.find(compress(size, permuted(places, new_index), where));
+  const Order order = find_order(compress(size, permuted(places, new_index), where));
   d.order = order.order;
-  d.lnz = order.common.lnz;
+  d.lnz = order.nonzeros;
   for (int k = 0; k < size; ++k) new_index[at(d.order[at(k)])] = k;
   d.pattern = compress(size, permuted(places, new_index), where);
   d.diagonal.resize(at(size));

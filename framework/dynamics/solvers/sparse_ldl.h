@@ -8,14 +8,15 @@
 namespace pintle {
 
 /// An elimination order, order[k] eliminated k-th, that gives little fill in a symmetric positive definite matrix with entries at `places`
-/// (either triangle, and the whole diagonal): AMD, or nested dissection where AMD gives much fill.
+/// (either triangle, and the whole diagonal): AMD, or for many rows nested dissection where AMD gives much fill.
 std::vector<int> fill_reducing_order(int size, std::vector<Pattern::Place> places);
 
-/// S = L D Lᵀ of a sparse symmetric matrix without pivoting. Ordered as above and analysed once, by CHOLMOD. A thin factor is computed
+/// S = L D Lᵀ of a sparse symmetric matrix without pivoting. Ordered as above and analysed once. A thin factor is computed
 /// column by column by LDL, without allocation; a thick one, with more than `thick` operations per entry of L, in dense blocks by CHOLMOD.
 class SparseLdl {
  public:
   static constexpr double thick = 40;
+  static constexpr int few = 100;  ///< rows, up to which it is always a thin factor, ordered by AMD alone: CHOLMOD takes time to load
 
   /// @param places  of the summands, either triangle; `where` ← the entry of `values` that each belongs to
   /// @pre places include every diagonal entry
