@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "framework/common/archive.h"
 #include "framework/integration/integrator.h"
@@ -30,7 +31,7 @@ std::string Integrator::save() const {
   std::ostringstream out(std::ios::binary);
   Writer writer(out);
   writer.whole(*this);
-  return out.str();
+  return std::move(out).str();
 }
 
 // Checks all loaded indices and sizes.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/common/signal_function.h"
+#include "framework/common/heap_optional.h"
 #include "framework/common/time_law.h"
 #include "framework/scene/elastic.h"
 #include "framework/scene/place.h"
@@ -75,9 +76,9 @@ struct SceneBody {
   Pair center{0, 0};   ///< mass centre in body axes [m]
   std::vector<ScenePoint> points;
   std::vector<SceneProfile> profiles = {};
-  std::optional<SceneElastic> elastic = {};  ///< if made of elements: these determine mass, inertia, center
-  Pair at{0, 0};                             ///< approximate initial position of the body's origin, world [m]
-  double angle = 0;                          ///< approximate initial angle [rad]
+  HeapOptional<SceneElastic> elastic = {};  ///< if made of elements: these determine mass, inertia, center
+  Pair at{0, 0};                            ///< approximate initial position of the body's origin, world [m]
+  double angle = 0;                         ///< approximate initial angle [rad]
   Place place;
   bool drawn_at = false, drawn_angle = false;  ///< given in the scene rather than defaults
   std::string colour = {};                     ///< in pictures: a CSS name or #rrggbb; empty: default
@@ -117,17 +118,17 @@ struct SceneJoint {
   std::string name;
   JointKind kind = JointKind::revolute;
   PointRef a, b;
-  std::optional<PointRef> c = {};           ///< differential, screw, cam: the cage or frame; otherwise the ground
-  double length = 0;                        ///< distance [m]
-  double angle = 0;                         ///< prismatic, weld: b's direction minus a's [rad]
-  double ratio = 1;                         ///< differential: turns of a relative to the cage per turn of b in the opposite direction
-  std::optional<SceneClearance> clearance;  ///< revolute only
+  std::optional<PointRef> c = {};          ///< differential, screw, cam: the cage or frame; otherwise the ground
+  double length = 0;                       ///< distance [m]
+  double angle = 0;                        ///< prismatic, weld: b's direction minus a's [rad]
+  double ratio = 1;                        ///< differential: turns of a relative to the cage per turn of b in the opposite direction
+  HeapOptional<SceneClearance> clearance;  ///< revolute only
   Place place;
-  std::optional<ScenePlay> play = {};               ///< prismatic, slot, distance, gear and rack only
-  std::optional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
-  bool engaged = true;                              ///< at the start
-  bool from_present = false;                        ///< `length` is relative to its value at the start, as the rest is assembled
-  std::optional<SceneCoupling> coupling = {};       ///< gear, rack, rolling, belt, screw, cam, and differential of terms
+  HeapOptional<ScenePlay> play = {};               ///< prismatic, slot, distance, gear and rack only
+  HeapOptional<SceneJointFriction> friction = {};  ///< revolute, prismatic and slot, without clearance
+  bool engaged = true;                             ///< at the start
+  bool from_present = false;                       ///< `length` is relative to its value at the start, as the rest is assembled
+  HeapOptional<SceneCoupling> coupling = {};       ///< gear, rack, rolling, belt, screw, cam, and differential of terms
 };
 
 /// A revolute with clearance whose bearing is an arc.

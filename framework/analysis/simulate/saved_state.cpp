@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 #include "files/files.h"
 #include "framework/analysis/simulate/identity.h"
@@ -60,9 +61,12 @@ std::string state_text(const std::string& identity, const SavedState& state) {
     out << ' ' << hex(x);
     return true;
   });
-  out << "\nmemory " << state.memory.size() << '\n' << state.memory;
-  const std::string text = out.str();
-  return text + std::string(last_word) + sha256(text) + "\n";
+  out << "\nmemory " << state.memory.size() << '\n';
+  std::string text = std::move(out).str();
+  text.reserve(text.size() + state.memory.size() + last_line);
+  text += state.memory;
+  const std::string sum = sha256(text);
+  return text.append(last_word).append(sum).append("\n");
 }
 
 SavedState state_of(const std::string& text, const std::string& source, const Scene& scene, const Model& model, const Assembly& assembly) {
