@@ -272,13 +272,14 @@ struct RunOptions {
 };
 
 struct OutputOptions {
-  double every = 0;              ///< output interval [s]; 0: a thousandth of the run
-  double states = 0;             ///< interval of saved states [s]; 0: only the last
-  int frames = 0;                ///< animation frames; 0: none; -1: default of the command
-  double exaggerate = 0;         ///< factor on drawn clearance; 0: chosen so that the gap is visible
-  double deformation = 1;        ///< factor on drawn deformation; 0: chosen so that it is visible
-  std::vector<PointRef> points;  ///< points whose motion, and on flexible bodies displacement, is recorded
-  std::vector<PointRef> stress;  ///< points of flexible bodies whose stress is recorded
+  double every = 0;                   ///< output interval [s]; 0: a thousandth of the run
+  double states = 0;                  ///< interval of saved states [s]; 0: only the last
+  int frames = 0;                     ///< animation frames; 0: none; -1: default of the command
+  double exaggerate = 0;              ///< factor on drawn clearance; 0: chosen so that the gap is visible
+  double deformation = 1;             ///< factor on drawn deformation; 0: chosen so that it is visible
+  std::vector<PointRef> points;       ///< points whose motion, and on flexible bodies displacement, is recorded
+  std::vector<PointRef> stress;       ///< points of flexible bodies whose stress is recorded
+  std::vector<double> instants = {};  ///< times of further rows, which studies ask for [s]
   Place place;
 };
 

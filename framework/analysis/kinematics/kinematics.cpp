@@ -182,7 +182,7 @@ void follow(const Scene& scene, const Model& written, DrivenMotion& motion, cons
   run.trajectory = trajectory_table(written);
   require_few_rows(scene, listeners);
   const double until = scene.run.until;
-  Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until);
+  Clock outputs(scene.output.every > 0 ? scene.output.every : until / 1000, until, scene.output.instants);
   Clock frames(scene.output.frames > 1 ? until / (scene.output.frames - 1) : 0, until);  // visited even if not drawn
   bool going = motion.failure().empty();
   double reached = motion.state().t;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <sstream>
+#include <utility>
 
 #include "framework/analysis/simulate/end_short.h"
 #include "framework/analysis/simulate/energy_balance.h"
@@ -15,8 +18,24 @@
 
 namespace pintle {
 
-Clock::Clock(double interval, double until) : interval_(interval), until_(until) {
+Clock::Clock(double interval, double until, std::vector<double> also) : interval_(interval), until_(until), also_(std::move(also)) {
   if (interval > 0) last_ = static_cast<long>(std::ceil(until / interval - 1e-9));
+  const auto on_interval = [&](double t) { return std::abs(t / interval - std::round(t / interval)) < 1e-7; };
+  std::erase_if(also_, [&](double t) { return last_ < 0 || !(t > 0 && t < until) || on_interval(t); });
+  std::ranges::sort(also_, std::greater());
+  also_.erase(std::ranges::unique(also_).begin(), also_.end());
+}
+
+double Clock::next() const {
+  const double regular = k_ > last_ ? std::numeric_limits<double>::infinity() : k_ == last_ ? until_ : static_cast<double>(k_) * interval_;
+  return also_.empty() ? regular : std::min(regular, also_.back());
+}
+
+void Clock::tick() {
+  if (!also_.empty() && also_.back() == next())
+    also_.pop_back();
+  else
+    ++k_;
 }
 
 void Clock::pass(double t) {
@@ -105,7 +124,7 @@ Simulation::Simulation(const Scene& scene, const Model& model, const Assembly& a
       system_(model.system),
       listeners_(listeners),
       run_(begun(model, assembly)),
-      outputs_(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until),
+      outputs_(scene.output.every > 0 ? scene.output.every : scene.run.until / 1000, scene.run.until, scene.output.instants),
       states_(listeners.state ? scene.output.states : 0, scene.run.until),
       frames_(scene.output.frames > 1 && listeners.frame ? scene.run.until / (scene.output.frames - 1) : 0, scene.run.until),
       start_(assembly.start),

@@ -13,18 +13,19 @@
 
 namespace pintle {
 
-/// Times k·interval, k = 0, 1, …, the last being `until` itself; none if interval is 0.
+/// Times k·interval, k = 0, 1, …, the last being `until` itself, and those of `also` between them; none if interval is 0.
 class Clock {
  public:
-  Clock(double interval, double until);
-  bool due(double t) const { return k_ <= last_ && next() <= t; }
-  double next() const { return k_ >= last_ ? until_ : static_cast<double>(k_) * interval_; }
-  void tick() { ++k_; }
+  Clock(double interval, double until, std::vector<double> also = {});
+  bool due(double t) const { return next() <= t; }
+  double next() const;  ///< infinite after the last
+  void tick();
   void pass(double t);
 
  private:
   double interval_, until_;
   long k_ = 0, last_ = -1;
+  std::vector<double> also_;  ///< what is left of it, latest first
 };
 
 /// @throws SceneError  the scene asks for more rows than are kept in memory, and no listener takes them

@@ -70,8 +70,16 @@ class Measuring {
   std::vector<double> rows() const { return signal().y; }
 
  private:
+  /// Without the rows that other measures have asked for.
+  Signal regular_rows(const Signal& x) const {
+    const double every = scene_.output.every > 0 ? scene_.output.every : scene_.run.until / 1000;
+    Signal out;
+    for (std::size_t i = 0; i < x.t.size(); ++i)
+      if (std::abs(x.t[i] / every - std::round(x.t[i] / every)) < 1e-6) out.t.push_back(x.t[i]), out.y.push_back(x.y[i]);
+    return out;
+  }
   double statistic(const Signal& x, double from, double to) const {
-    if (asked_.frequency) return dominant_frequency(x);
+    if (asked_.frequency) return dominant_frequency(regular_rows(x));
     switch (asked_.statistic) {
       case Statistic::greatest: return value_or_time(with_impacts(greatest(x), from, to));
       case Statistic::least: return value_or_time(least(x));

@@ -36,20 +36,6 @@ void record(Scene& scene, const Asked& a) {
   }
 }
 
-/// The longest interval up to `most` such that all instants are multiples of it, if that does not need too many rows.
-double interval(double most, double until, std::vector<double> instants) {
-  std::erase_if(instants, [&](double t) { return !(t > 0 && t < until * (1 - 1e-12)); });
-  if (instants.empty()) return most;
-  const double first = *std::min_element(instants.begin(), instants.end());
-  for (double k = std::ceil(first / most - 1e-9), tries = 0; tries < 2000; ++k, ++tries) {
-    const double every = first / k;
-    if (until / every > std::min(most_rows, std::max(20'000.0, 10 * until / most))) break;
-    const auto hit = [&](double t) { return std::abs(t / every - std::round(t / every)) < 1e-8; };
-    if (std::ranges::all_of(instants, hit)) return every;
-  }
-  return most;
-}
-
 }  // namespace
 
 void prepare(Scene& scene, const std::vector<Measure>& measures) {
@@ -57,8 +43,7 @@ void prepare(Scene& scene, const std::vector<Measure>& measures) {
   const bool one_state = !measures.empty() && measures.front().question.analysis == Analysis::statics;
   if (!scene.has_run && !one_state) return;
   const double until = scene.run.until, written = scene.output.every > 0 ? scene.output.every : until / 1000;
-  double most = written;
-  std::vector<double> instants;
+  double every = written;
   for (const Measure& m : measures) {
     Asked asked;
     if (of_modes(m.question)) return;
@@ -72,12 +57,11 @@ void prepare(Scene& scene, const std::vector<Measure>& measures) {
       scene.outputs.push_back(*asked.expression);
     if (one_state) continue;
     const double to = std::isinf(asked.to) ? until : asked.to;
-    instants.push_back(asked.from), instants.push_back(to);
+    for (const double t : {asked.from, to, until - asked.last}) scene.output.instants.push_back(t);
     const double rows = asked.what == What::path ? rows_of_a_path : rows_in_a_window;
-    if (sampled(asked) && to > asked.from) most = std::min(most, std::max((to - asked.from) / rows, until / most_rows));
+    if (sampled(asked) && to > asked.from) every = std::min(every, std::max((to - asked.from) / rows, until / most_rows));
   }
-  if (one_state) return;
-  if (const double every = interval(most, until, instants); every != written) scene.output.every = every;
+  if (every != written) scene.output.every = every;
 }
 
 }  // namespace pintle

@@ -70,6 +70,26 @@ double rate_at(const Signal& x, std::size_t i, double t) {
   return 6 * s * (1 - s) * (c.b - c.a) / c.h + (1 - s) * (1 - 3 * s) * c.da + s * (3 * s - 2) * c.db;
 }
 
+/// The greatest value on a parabola through three rows. It also has to predict the rows beside them: where the signal jumps or is cut off it
+/// does not, and would exceed all values.
+std::optional<Extreme> top_of_parabola(const Signal& x, std::size_t i) {
+  if (i == 0 || i + 1 >= x.y.size()) return std::nullopt;
+  const double h0 = x.t[i] - x.t[i - 1], h1 = x.t[i + 1] - x.t[i];
+  const double d0 = (x.y[i] - x.y[i - 1]) / h0, d1 = (x.y[i + 1] - x.y[i]) / h1, bend = (d1 - d0) / (h0 + h1);
+  const double slope = (d0 * h1 + d1 * h0) / (h0 + h1), to_top = -slope / (2 * bend);
+  const auto predicts = [&](std::size_t row) {
+    if (row >= x.y.size()) return true;  // there is none
+    const double s = x.t[row] - x.t[i];
+    return std::abs(x.y[i] + slope * s + bend * s * s - x.y[row]) <= -bend * s * s / 4;
+  };
+  if (!(bend < 0 && to_top > -h0 && to_top < h1) || !(predicts(i + 2) && predicts(i - 2))) return std::nullopt;
+  return Extreme{x.y[i] + slope * to_top / 2, x.t[i] + to_top};
+}
+
+/// Whether the rate can be that of a smooth signal between its ends. If it jumps from one end's rate to that of the other, it jumps near
+/// the middle, and the cubic does not exceed all values.
+bool holds(const Cubic& c) { return std::abs((c.da + c.db) / 2 - (c.b - c.a) / c.h) <= std::abs(c.db - c.da) / 8; }
+
 Signal negative(Signal x) {
   for (double& v : x.y) v = -v;
   for (double& v : x.rate) v = -v;
@@ -152,17 +172,11 @@ Extreme greatest(const Signal& x) {
       const std::optional<Extreme> jump = at_jump(x, k);
       if (jump && jump->value > best.value) best = *jump;
       const Cubic c = piece(x, k);
-      for (const double s : jump ? std::vector<double>{} : c.turns())
+      for (const double s : jump || !holds(c) ? std::vector<double>{} : c.turns())
         if (c(s) > best.value) best = {c(s), x.t[k] + s * c.h};
     }
-  } else if (x.smooth && i > 0 && i + 1 < x.y.size()) {
-    const double h0 = x.t[i] - x.t[i - 1], h1 = x.t[i + 1] - x.t[i];
-    const double d0 = (x.y[i] - x.y[i - 1]) / h0, d1 = (x.y[i + 1] - x.y[i]) / h1, bend = (d1 - d0) / (h0 + h1);
-    const double slope = (d0 * h1 + d1 * h0) / (h0 + h1);
-    if (bend < 0) {
-      const double s = -slope / (2 * bend);
-      if (s > -h0 && s < h1) best = {x.y[i] - slope * slope / (4 * bend), x.t[i] + s};
-    }
+  } else if (x.smooth) {
+    best = top_of_parabola(x, i).value_or(best);
   }
   return best;
 }

@@ -22,9 +22,9 @@ struct Extreme {
 double value_at(const Signal&, double t);
 /// The part from `from` to `to`, with values at both ends. @pre the rows cover it
 Signal between(const Signal&, double from, double to);
-/// Largest value and its time: between rows by cubics where rates are known, or by lines from the rows beside a jump of the rate, or by a
-/// parabola where the signal is smooth. The error of the
-/// sampled peak of a sine, (pi/n)^2/2 of its amplitude with n rows per period, is thus reduced to less than (pi/n)^4.
+/// Largest value and its time: between rows by cubics where rates are known, or by lines from the rows beside a known jump of the rate, or
+/// by a parabola where the signal is smooth; where neighbouring rows show that it is not, the largest row. With n ≥ 6 rows per period the
+/// error of the sampled peak of a sine, (pi/n)^2/2 of its amplitude, is thus reduced to less than (pi/n)^4.
 Extreme greatest(const Signal&);
 Extreme least(const Signal&);
 double mean(const Signal&);  ///< by the trapezoidal rule

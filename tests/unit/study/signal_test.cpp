@@ -54,6 +54,43 @@ TEST(Signal, PeaksWhereTheRateJumpsAreReached) {
   EXPECT_NEAR(greatest(between(s, 0.5, 0.6)).value, -3 + 0.063, 1e-15);
 }
 
+// Switched forces, energies at blows: wherever the jump lies between rows, no value beyond those of the signal is reported.
+TEST(Signal, NoPeakIsInventedWhereASignalJumps) {
+  using Function = double (*)(double t, double jump);
+  const Function values[] = {[](double t, double jump) { return t < jump ? 0.0 : 10.0; },
+                             [](double t, double jump) { return t < jump ? -10.0 : 10.0; },
+                             [](double t, double jump) { return t < jump ? 10 * t * t / (jump * jump) : 4.0; },
+                             [](double t, double jump) { return t < jump ? 0.0 : 10 * std::exp(jump - t); },
+                             [](double t, double jump) { return 10 - std::abs(t - jump); },
+                             [](double t, double jump) { return std::min(10.0, 10.5 - 20 * std::abs(t - jump)); }};
+  for (const Function value : values)
+    for (int k = 0; k < 40; ++k) {
+      const double jump = 0.4 + 0.0067 * k;
+      Signal s;
+      for (int row = 0; row <= 50; ++row) s.t.push_back(0.02 * row), s.y.push_back(value(s.t.back(), jump));
+      EXPECT_LE(greatest(s).value, 10 + 1e-12) << jump;
+      for (double& y : s.y) y = -y;
+      EXPECT_GE(least(s).value, -10 - 1e-12) << jump;
+    }
+}
+
+// A body is accelerated, and the force ends: its speed, whose rate jumps, does not exceed what is reached.
+TEST(Signal, NoPeakIsInventedWhereARateJumps) {
+  for (const double after : {0.0, -2.0, 1.0})
+    for (int k = 0; k < 40; ++k) {
+      const double jump = 0.4 + 0.0067 * k;
+      Signal s;
+      for (int row = 0; row <= 50; ++row) {
+        const double t = 0.02 * row;
+        s.t.push_back(t), s.rate.push_back(t < jump ? 5 : after);
+        s.y.push_back(5 * std::min(t, jump) + after * std::max(0.0, t - jump));
+      }
+      const double most = after > 0 ? s.y.back() : 5 * jump;
+      EXPECT_LE(greatest(s).value, most + 1e-12) << after << " from " << jump;
+      EXPECT_GE(greatest(s).value, most - 0.1) << after << " from " << jump;  // what happens between two rows
+    }
+}
+
 TEST(Signal, FrequencyOfAToneIsFoundHoweverItIsCut) {
   for (const double periods : {2.0, 3.3, 7.77, 50.25, 400.1})
     for (const double phase : {0.0, 0.9, 2.2}) {
