@@ -1,7 +1,6 @@
 // Where periodic orbits lose their stability along a branch.
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <complex>
 
 #include "framework/study/nonlinear/nonlinear.h"
 
@@ -21,22 +20,20 @@ std::size_t real_outside(const Cycle& cycle, double sign) {
   return n;
 }
 
-/// The signed distance of the multiplier nearest to its crossing: of real ones from 1 or -1, of pairs from the unit circle. Real ones may
-/// come from a pair; if only pairs are there, it is that of their real parts.
-double nearest(const Cycle& cycle, Crossing through) {
-  const auto among = [&](bool pairs) {
-    std::optional<double> out;
-    for (std::size_t j = 0; j < cycle.re.size(); ++j) {
-      if ((cycle.im[j] != 0) != pairs) continue;
-      const double off = through == Crossing::pair       ? cycle.modulus(j) - 1
-                         : through == Crossing::plus_one ? cycle.re[j] - 1
-                                                         : -cycle.re[j] - 1;
-      if (!out || std::abs(off) < std::abs(*out)) out = off;
-    }
-    return out;
-  };
-  const std::optional<double> found = among(through == Crossing::pair);
-  return found ? *found : among(through != Crossing::pair).value_or(0);
+/// A smooth function of the orbit that vanishes where multipliers cross [Kuznetsov2004, 10.2]: Π(λ_j + 1), Π(λ_j − 1), or for a pair
+/// Π(λ_i λ_j − 1)/(|λ_i λ_j| + 1) over i < j.
+double vanishing(const Cycle& cycle, Crossing through) {
+  std::complex<double> product = 1;
+  const auto multiplier = [&](std::size_t j) { return std::complex(cycle.re[j], cycle.im[j]); };
+  for (std::size_t j = 0; j < cycle.re.size(); ++j)
+    if (through == Crossing::pair)
+      for (std::size_t i = 0; i < j; ++i) {
+        const std::complex<double> both = multiplier(i) * multiplier(j);
+        product *= (both - 1.0) / (std::abs(both) + 1);
+      }
+    else
+      product *= multiplier(j) + (through == Crossing::minus_one ? 1.0 : -1.0);
+  return product.real();
 }
 
 /// A change in the number of real multipliers beyond -1 or beyond 1; otherwise a pair has crossed.
@@ -63,8 +60,9 @@ std::vector<LossOfStability> losses_of_stability(const std::vector<FollowedValue
     const Cycle &from = a.orbit.cycle, &to = b.orbit.cycle;
     if (!from.found() || to.continued == 0 || outside(from) == outside(to)) continue;
     const Crossing through = crossing(from, to);
-    const double off = nearest(from, through), on = nearest(to, through);
-    out.push_back({through, order[i - 1], order[i], off == on ? b.at[0] : a.at[0] + (b.at[0] - a.at[0]) * off / (off - on)});
+    const double off = vanishing(from, through), on = vanishing(to, through);
+    const double share = off * on < 0 ? off / (off - on) : 0.5;  // the middle, where other multipliers hide the crossing
+    out.push_back({through, order[i - 1], order[i], a.at[0] + (b.at[0] - a.at[0]) * share});
   }
   return out;
 }

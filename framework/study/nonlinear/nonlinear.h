@@ -91,7 +91,7 @@ enum class Crossing { plus_one, minus_one, pair };
 struct LossOfStability {
   Crossing through;
   std::size_t before, after;  ///< indices of values, neighbours along a branch
-  double x;                   ///< estimated parameter, by linear interpolation of their multipliers
+  double x;                   ///< estimated parameter, by linear interpolation of a product of their multipliers
 };
 /// Where along branches of periodic orbits the number of multipliers outside the unit circle changes.
 std::vector<LossOfStability> losses_of_stability(const std::vector<FollowedValue>&);

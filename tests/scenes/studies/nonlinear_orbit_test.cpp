@@ -212,7 +212,7 @@ struct Linear {
 };
 
 // Linear, so that the multipliers are exp(lambda T): a pair for c about 0, one of +1 for a about 0.
-// The real part of the pair goes on as the multiplier that crosses.
+// A pair becomes real, and one of the two crosses. Between the values trace and determinant of the map are linear.
 TEST(PeriodicOrbits, LoseTheirStabilityByRealMultipliersThatWereAPair) {
   const auto at = [](double x, std::vector<double> re, std::vector<double> im) {
     FollowedValue value;
@@ -226,8 +226,29 @@ TEST(PeriodicOrbits, LoseTheirStabilityByRealMultipliersThatWereAPair) {
         losses_of_stability({at(2, {0.2 * sign, 0.2 * sign}, {0.5, -0.5}), at(3, {1.2 * sign, 0.3 * sign}, {0, 0})});
     ASSERT_EQ(losses.size(), 1u);
     EXPECT_EQ(losses[0].through, sign < 0 ? Crossing::minus_one : Crossing::plus_one);
-    EXPECT_NEAR(losses[0].x, 2.8, 1e-14);
+    const double before = 1 - 0.4 + 0.29, after = 1 - 1.5 + 0.36;  // 1 ∓ trace + determinant
+    EXPECT_NEAR(losses[0].x, 2 + before / (before - after), 1e-14);
   }
+}
+
+// Two pairs, of which one crosses at 0 and the other has greater modulus on one side.
+TEST(PeriodicOrbits, LoseTheirStabilityByOneOfTwoPairs) {
+  const auto at = [](double x) {
+    FollowedValue value;
+    value.at = {x};
+    Cycle& cycle = value.orbit.cycle;
+    cycle.point = {0}, cycle.continued = 1;
+    const double first = std::exp(-x), second = std::exp(-0.2 - 0.1 * x);
+    for (const double sign : {-1.0, 1.0}) {
+      cycle.re.push_back(first * std::cos(2.3)), cycle.im.push_back(sign * first * std::sin(2.3));
+      cycle.re.push_back(second * std::cos(1.7)), cycle.im.push_back(sign * second * std::sin(1.7));
+    }
+    return value;
+  };
+  const std::vector<LossOfStability> losses = losses_of_stability({at(0.3), at(-0.1)});
+  ASSERT_EQ(losses.size(), 1u);
+  EXPECT_EQ(losses[0].through, Crossing::pair);
+  EXPECT_NEAR(losses[0].x, 0, 0.1);
 }
 
 TEST(PeriodicOrbits, TellThroughWhatTheirMultipliersLeave) {
