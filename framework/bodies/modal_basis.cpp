@@ -76,7 +76,7 @@ int port_of(const ElasticBody& e, const std::string& point) {
   return -1;
 }
 
-std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
+std::set<int> loaded_ports(const Scene& scene, const ElasticBody& e) {
   std::set<int> used;
   const auto note = [&](const PointRef& ref) {
     if (ref.body == e.scene->name) used.insert(port_of(e, ref.point));
@@ -96,6 +96,11 @@ std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
             note(w.a), note(w.b);
         },
         l.what);
+  return used;
+}
+
+std::vector<int> interface_of(const Scene& scene, const ElasticBody& e) {
+  const std::set<int> used = loaded_ports(scene, e);
   std::vector<int> ports;
   for (int i = 0; i < static_cast<int>(e.model.ports.size()); ++i)
     if (used.empty() || used.contains(i)) ports.push_back(i);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "framework/bodies/elastic_body.h"
@@ -19,7 +20,9 @@ ReferenceConditions reference_conditions_of(const Scene&, const ElasticBody&);
 /// "Craig-Bampton, chord frame"
 std::string title_of(const SceneModes&);
 
-/// Ports at which joints, drivers and forces act, in the body's order; all ports if there are none.
+/// Ports at which joints, contacts, drivers and forces act.
+std::set<int> loaded_ports(const Scene&, const ElasticBody&);
+/// The same in the body's order; all ports if there are none.
 std::vector<int> interface_of(const Scene&, const ElasticBody&);
 /// Those of them whose boundary the body's `modes` declare massless: at clearance joints with a contact law.
 std::vector<int> massless_ports(const Scene&, const ElasticBody&);

@@ -81,8 +81,9 @@ std::vector<std::string> stress_warnings(const System& system, const std::vector
     double stretch = 0, bend = 0;
     for (Eigen::Index i = 0; i < made.modes.shapes.cols(); ++i) {
       const StressField field = stress_field(made.elastic.model, made.modes.shapes.col(i), made.elastic.fibres);
-      stretch = std::max(stretch, field.section_forces.row(0).cwiseAbs().maxCoeff() / s.probe.A);
-      bend = std::max(bend, field.section_forces.row(2).cwiseAbs().maxCoeff() / std::sqrt(s.probe.A * s.probe.I));
+      stretch = std::max(stretch, field.section_forces.row(0).cwiseAbs().maxCoeff() / s.probe.sides.front().A);
+      bend =
+          std::max(bend, field.section_forces.row(2).cwiseAbs().maxCoeff() / std::sqrt(s.probe.sides.front().A * s.probe.sides.front().I));
     }
     if (stretch > rounding * bend) continue;
     const std::string& name = system.bodies[static_cast<std::size_t>(s.body)].name;

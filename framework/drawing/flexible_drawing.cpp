@@ -1,9 +1,13 @@
 #include "framework/drawing/flexible_drawing.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "elements/plane.h"
 #include "framework/bodies/elastic_parts.h"
+#include "framework/bodies/modal_basis.h"
 #include "framework/drawing/body_drawing.h"
 
 namespace pintle {
@@ -88,22 +92,44 @@ int node_of(const FeModel& model, const Port& port) {
   return node;
 }
 
-StressProbe beam_probe(const ElasticBody& body, const ModalModel& modes, int node) {
-  StressProbe probe{true, MatrixXd::Zero(3, modes.shapes.cols())};
+/// Whether a joint, a load, a contact or a lump acts on a node.
+bool acts_at(const Scene& scene, const ElasticBody& body, int node) {
+  const auto is_there = [&](int port) {
+    return port >= 0 && node_of(body.model, body.model.ports[static_cast<std::size_t>(port)]) == node;
+  };
+  return std::ranges::any_of(loaded_ports(scene, body), is_there) ||
+         std::ranges::any_of(body.scene->elastic->lumps, [&](const SceneLump& lump) { return is_there(port_of(body, lump.at)); });
+}
+
+/// Whether two elements are one straight beam of one section, or of a taper that is made of steps.
+bool runs_on(const ElasticBody& body, Index one, Index other) {
+  const auto axis = [&](Index element) -> Eigen::Vector2d {
+    const int* node = body.mesh.cells.front().nodes.data() + 2 * element;
+    return (body.mesh.x.col(node[1]) - body.mesh.x.col(node[0])).normalized();
+  };
+  constexpr double step = 0.4;
+  const Fibre &a = body.fibres[static_cast<std::size_t>(one)], &b = body.fibres[static_cast<std::size_t>(other)];
+  const auto alike = [](double x, double y) { return std::abs(x - y) <= step * std::max(x, y); };
+  return alike(a.A, b.A) && alike(a.I, b.I) && alike(a.distance, b.distance) && (axis(one) - axis(other)).norm() < 1e-6;
+}
+
+StressProbe beam_probe(const Scene& scene, const ElasticBody& body, const ModalModel& modes, int node) {
+  StressProbe probe{true, {}};
   std::vector<Index> ends;  // columns of StressField::section_forces
   const std::vector<int>& nodes = body.mesh.cells.front().nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (nodes[k] == node) ends.push_back(static_cast<Index>(k));
-  const double share = 1.0 / static_cast<double>(ends.size());
   for (const Index end : ends) {
     const Fibre& fibre = body.fibres[static_cast<std::size_t>(end / 2)];
-    probe.A += share * fibre.A;
-    probe.I += share * fibre.I;
-    probe.distance += share * fibre.distance;
+    probe.sides.push_back({MatrixXd(3, modes.shapes.cols()), fibre.A, fibre.I, fibre.distance});
   }
   for (Index i = 0; i < modes.shapes.cols(); ++i) {
     const StressField field = stress_field(body.model, modes.shapes.col(i), body.fibres);
-    for (const Index end : ends) probe.rows.col(i) += share * field.section_forces.col(end);
+    for (std::size_t k = 0; k < ends.size(); ++k) probe.sides[k].rows.col(i) = field.section_forces.col(ends[k]);
+  }
+  if (ends.size() == 2 && runs_on(body, ends[0] / 2, ends[1] / 2) && !acts_at(scene, body, node)) {
+    const StressProbe::Side &a = probe.sides[0], &b = probe.sides[1];
+    probe.sides = {{(a.rows + b.rows) / 2, (a.A + b.A) / 2, (a.I + b.I) / 2, (a.distance + b.distance) / 2}};
   }
   return probe;
 }
@@ -123,10 +149,10 @@ const Port& material_port(const Scene& scene, const ElasticBody& body, const Poi
 
 StressProbe stress_probe(const Scene& scene, const ElasticBody& body, const ModalModel& modes, const PointRef& ref) {
   const int node = node_of(body.model, material_port(scene, body, ref));
-  if (!body.plate()) return beam_probe(body, modes, node);
-  StressProbe probe{false, MatrixXd(4, modes.shapes.cols())};
-  for (Index i = 0; i < modes.shapes.cols(); ++i) probe.rows.col(i) = stress_field(body.model, modes.shapes.col(i)).nodal.col(node);
-  return probe;
+  if (!body.plate()) return beam_probe(scene, body, modes, node);
+  MatrixXd rows(4, modes.shapes.cols());
+  for (Index i = 0; i < modes.shapes.cols(); ++i) rows.col(i) = stress_field(body.model, modes.shapes.col(i)).nodal.col(node);
+  return {false, {{std::move(rows)}}};
 }
 
 }  // namespace pintle

@@ -59,11 +59,15 @@ class FlexibleDrawing {
 /// Stress of a named point during a run: a few rows times the modal coordinates. It is computed from displacement alone, without the
 /// contribution of loads between a beam's nodes, such as its inertia: the error decreases with finer elements.
 struct StressProbe {
+  struct Side {
+    /// Plates: [σx σy τxy σz] [Pa], 4 × n, the mean over the elements at the node. Beams: [N V M] [N, N, N m], 3 × n.
+    Eigen::MatrixXd rows;
+    double A = 0, I = 0, distance = 0;  ///< of a beam's section there [m²], [m⁴], [m]
+  };
   bool beam = false;
-  /// Plates: [σx σy τxy σz] [Pa], 4 × n, the mean over the elements at the node. Beams: [N V M] [N, N, N m], 3 × n, the mean of both sides
-  /// of the node.
-  Eigen::MatrixXd rows;
-  double A = 0, I = 0, distance = 0;  ///< of a beam's section there, also the mean [m²], [m⁴], [m]
+  /// Beams: the elements that meet at the node, as section forces jump where something acts or the axis bends; their mean if nothing acts on
+  /// a straight beam there. Plates: one.
+  std::vector<Side> sides;
 };
 /// @throws SceneError  there is no such point; it is the origin of the axes or the middle of a hole, where there is no material
 StressProbe stress_probe(const Scene&, const ElasticBody&, const ModalModel&, const PointRef&);

@@ -197,17 +197,22 @@ void point_columns(const System& system, const RecordedPoint& p, Out& out) {
 
 template <class Out>
 void stress_columns(const System& system, const RecordedStress& s, Out& out) {
-  const auto probe = [&](const Now& now) -> Eigen::VectorXd {
-    return s.probe.rows * now.state.y.segment(system.eta_begin[at(s.body)], s.probe.rows.cols());
+  const auto at_side = [&](const StressProbe::Side& side, const Now& now) -> Eigen::VectorXd {
+    return side.rows * now.state.y.segment(system.eta_begin[at(s.body)], side.rows.cols());
   };
-  if (s.probe.beam)  // the larger of the two fibres
+  if (s.probe.beam)
     out(s.name, column::beam_stress, [&](const Now& now) {
-      const Eigen::VectorXd v = probe(now);
-      return std::array{v[0], v[1], v[2], std::abs(v[0]) / s.probe.A + std::abs(v[2]) * s.probe.distance / s.probe.I};
+      std::array<double, 4> most{};  // of the side and the fibre with the largest stress
+      for (const StressProbe::Side& side : s.probe.sides) {
+        const Eigen::VectorXd v = at_side(side, now);
+        const double stress = std::abs(v[0]) / side.A + std::abs(v[2]) * side.distance / side.I;
+        if (!(stress < most[3])) most = {v[0], v[1], v[2], stress};
+      }
+      return most;
     });
   else
     out(s.name, column::plane_stress, [&](const Now& now) {
-      const Eigen::VectorXd v = probe(now);
+      const Eigen::VectorXd v = at_side(s.probe.sides.front(), now);
       return std::array{v[0], v[1], v[2], von_mises(v)};
     });
 }

@@ -49,7 +49,8 @@ string bits(const Model& model) {
     b.add(m.x_BP), b.add(m.shape), b.add(m.slope);
     for (const auto& second : m.second) b.add(second);
   }
-  for (const RecordedStress& s : model.stresses) b.add(s.probe.rows), b.add(s.probe.A), b.add(s.probe.I), b.add(s.probe.distance);
+  for (const RecordedStress& s : model.stresses)
+    for (const StressProbe::Side& side : s.probe.sides) b.add(side.rows), b.add(side.A), b.add(side.I), b.add(side.distance);
   for (const FlexibleReport& r : model.flexible) {
     b.add(r.basis), b.add(r.compliance), b.add(r.compliance_at), b.add(r.lowest);
     if (r.mass) b.add(*r.mass);

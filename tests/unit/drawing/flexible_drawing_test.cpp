@@ -207,7 +207,7 @@ TEST(StressProbe, OfAPlateIsTheStressAtThePoint) {
     expected(0, 0) = young;
     expected(2, 1) = young / (2 * (1 + poisson));
     EXPECT_FALSE(found.beam);
-    EXPECT_LT((found.rows - expected).norm(), rounding * young) << point;
+    EXPECT_LT((found.sides.at(0).rows - expected).norm(), rounding * young) << point;
   }
 }
 
@@ -218,11 +218,13 @@ TEST(StressProbe, OfABeamIsItsSectionForcesAtThePoint) {
     Eigen::Matrix<double, 3, 2> expected;
     expected << EA, 0, 0, -EI, 0, EI * x;
     EXPECT_TRUE(found.beam);
-    EXPECT_LT((found.rows.col(0) - expected.col(0)).norm(), rounding * EA) << point;
-    EXPECT_LT((found.rows.col(1) - expected.col(1)).norm(), rounding * EI * 64) << point;
-    EXPECT_NEAR(found.A, 0.005, 1e-17);
-    EXPECT_NEAR(found.I, 0.05 * 0.001 / 12, 1e-19);
-    EXPECT_EQ(found.distance, 0.05);
+    ASSERT_EQ(found.sides.size(), 1u);
+    const StressProbe::Side& side = found.sides[0];
+    EXPECT_LT((side.rows.col(0) - expected.col(0)).norm(), rounding * EA) << point;
+    EXPECT_LT((side.rows.col(1) - expected.col(1)).norm(), rounding * EI * 64) << point;
+    EXPECT_NEAR(side.A, 0.005, 1e-17);
+    EXPECT_NEAR(side.I, 0.05 * 0.001 / 12, 1e-19);
+    EXPECT_EQ(side.distance, 0.05);
   }
 }
 
@@ -230,8 +232,9 @@ TEST(StressProbe, OfATaperedBeamHasTheSectionBetweenItsNeighbours) {
   // Height from 0.1 to 0.06 m: at the middle node 0.08 m, A linear in it.
   const Body body(beam(", taper to: {rectangle: [0.06, 0.05]}"));
   const StressProbe found = probe(body, {stretch}, "M");
-  EXPECT_NEAR(found.A, 0.05 * 0.08, 1e-15);
-  EXPECT_NEAR(found.distance, 0.04, 1e-15);
+  ASSERT_EQ(found.sides.size(), 1u);
+  EXPECT_NEAR(found.sides[0].A, 0.05 * 0.08, 1e-15);
+  EXPECT_NEAR(found.sides[0].distance, 0.04, 1e-15);
 }
 
 std::string complaint(const std::string& text, const std::string& point) {
