@@ -342,6 +342,8 @@ class Builder {
     for (const DrawnProfile& p : model_.profiles)
       if (p.body != ground || length == 0)
         for (const Vector2d& x : p.points) length = std::max(length, x.norm());
+    if (length == 0)  // all points are at mass centres
+      for (const Body& b : model_.system.bodies) length = std::max(length, b.x_BO.norm());
     return length > 0 ? length : 1;
   }
 

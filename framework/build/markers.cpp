@@ -34,9 +34,18 @@ const MechanismBody* Markers::elements(int body) const {
   return &*elements_[static_cast<std::size_t>(body)];
 }
 
+namespace {
+/// A point at the mass centre is there exactly: the rounding of a difference must not become the size of the mechanism.
+Marker without_rounding(Marker m, const Vector2d& x_BO) {
+  if (m.x_BP.norm() <= 1e-14 * x_BO.norm()) m.x_BP.setZero();
+  return m;
+}
+}  // namespace
+
 Marker Markers::marker_at(const PointRef& ref, Holds what) const {
   const int b = body(ref);
-  if (const MechanismBody* made = elements(b)) return marker_of(scene_, *made, b, ref, what == Holds::direction);
+  const Vector2d x_BO = b == ground ? Vector2d(0, 0) : model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
+  if (const MechanismBody* made = elements(b)) return without_rounding(marker_of(scene_, *made, b, ref, what == Holds::direction), x_BO);
   Vector2d at = Vector2d::Zero();
   double angle = 0;
   const auto& points = b == ground ? scene_.ground : scene_.bodies[static_cast<std::size_t>(b)].points;
@@ -50,8 +59,7 @@ Marker Markers::marker_at(const PointRef& ref, Holds what) const {
     at = vector(p->at);
     angle = p->angle;
   }
-  if (b != ground) at += model_.system.bodies[static_cast<std::size_t>(b)].x_BO;
-  return {b, at, angle};
+  return without_rounding({b, at + x_BO, angle}, x_BO);
 }
 
 int Markers::index_of(const Marker& made, const std::string& point) {
