@@ -250,7 +250,8 @@ int statics(const Options& options) {
   require_place(out);
   if (scene.statics && !scene.statics->contacts.empty()) return contact_statics(options, waiting, scene, out);
   const std::string name = !options.body.empty() || !scene.statics ? options.body : scene.statics->body;
-  const ElasticBody e = made(scene, name);
+  ElasticBody e = made(scene, name);
+  if (const std::string warning = fibre_warning(e); !warning.empty()) e.warnings.push_back(warning);
   now_doing("solving the static case");
   const StaticReport r = solve_case(scene, e);
   now_doing("writing the results");

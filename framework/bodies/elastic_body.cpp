@@ -84,6 +84,29 @@ void validate_slenderness(const FeModel& model, std::vector<std::string>& warnin
   warnings.push_back(s.str());
 }
 
+// The stiffness 12 EI/l³ of a short element rounds that of the whole, 3 EI/L³, away.
+void validate_shortest_element(const FeModel& model, std::vector<std::string>& warnings) {
+  constexpr double noticeable = 1e-3, too_much = 1e-2;
+  double length = 0, shortest = std::numeric_limits<double>::infinity();
+  const auto measure = [&](const auto& block) {
+    for (int i = 0; i < block.size(); ++i)
+      if constexpr (requires { block.element(i).EI; }) {
+        const auto x = block.coords(i, model.x);
+        const double here = (x.col(1) - x.col(0)).norm();
+        length += here, shortest = std::min(shortest, here);
+      }
+  };
+  for (const AnyBlock& any : model.blocks) std::visit(measure, any);
+  const double lost = 4 * std::numeric_limits<double>::epsilon() * std::pow(length / shortest, 3);
+  if (!(lost > noticeable)) return;
+  std::ostringstream s;
+  s << std::setprecision(2) << "its shortest element is " << shortest << " m long, and the beam " << length
+    << " m: rounding may change its bending by " << 100 * std::min(lost, 1.0)
+    << " %; move points that lie so close to each other together, or further apart";
+  if (lost > too_much) throw std::invalid_argument(s.str());
+  warnings.push_back(s.str());
+}
+
 /// The material with the density that gives `mass` to a body whose mass at density 1 is `volume`.
 Material with_mass(Material material, const std::optional<double>& mass, double volume) {
   if (mass) material.density = *mass / volume;
@@ -244,7 +267,7 @@ NodePort node_port(const Scene& scene, const SceneBody& body, const Mesh& mesh, 
     throw SceneError(
         scene.file, p.place,
         "no node lies at " + shown(vector(p.at)) + "; the nearest, " + std::to_string(mesh.node_numbers[static_cast<std::size_t>(node)]) +
-            ", is at " + shown(mesh.x.col(node)) +
+            ", is at " + shown(mesh.x.col(node)) + ", " + number_text(gap, 3) + " m away" +
             (beam_of(body) ? "; put the point on the beam's axis" : "; put the point there, or mesh a drawing, where points become nodes"));
   }
   return {p.name, node};
@@ -297,6 +320,7 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
     }
     e.model = fe_model(e.mesh.x, blocks_of(body, e.mesh, e.fibres), lumps_of(scene, body, e.mesh));
     validate_slenderness(e.model, e.warnings);
+    validate_shortest_element(e.model, e.warnings);
     add_ports(scene, body, e.mesh, e.model, e.warnings);
     const Assembler assembler(e.model);
     e.K = assembler.stiffness();
@@ -304,6 +328,12 @@ ElasticBody elastic_body(const Scene& scene, const SceneBody& body) {
   });
   e.assembly_seconds = seconds(meshed);
   return e;
+}
+
+std::string fibre_warning(const ElasticBody& e) {
+  const SceneBeam* beam = beam_of(*e.scene);
+  if (!beam || beam->bar || std::ranges::none_of(e.fibres, [](const Fibre& f) { return f.distance == 0; })) return "";
+  return "its section has no `fibre`, the distance of the outermost fibre from the axis: its stress is N/A alone, without bending";
 }
 
 }  // namespace pintle

@@ -36,6 +36,8 @@ Mesh mesh_of(const Scene&, const SceneBody&, std::vector<std::string>& warnings)
 
 /// @throws SceneError  as mesh_of, and any error in points, holes, material or lumps
 ElasticBody elastic_body(const Scene&, const SceneBody&);
+/// That a beam's section gives no bending stress; empty: it does, or is that of bars.
+std::string fibre_warning(const ElasticBody&);
 
 /// The dofs fixed by one entry of the body's supports.
 struct NamedSupport {

@@ -78,6 +78,8 @@ std::vector<std::string> stress_warnings(const System& system, const std::vector
   for (const RecordedStress& s : stresses) {
     if (!s.probe.beam || !reported.insert(s.body).second) continue;
     const MechanismBody& made = *bodies[static_cast<std::size_t>(s.body)];
+    if (const std::string lacks = fibre_warning(made.elastic); !lacks.empty())
+      out.push_back("\"" + system.bodies[static_cast<std::size_t>(s.body)].name + "\": " + lacks);
     double stretch = 0, bend = 0;
     for (Eigen::Index i = 0; i < made.modes.shapes.cols(); ++i) {
       const StressField field = stress_field(made.elastic.model, made.modes.shapes.col(i), made.elastic.fibres);

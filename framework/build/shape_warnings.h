@@ -25,7 +25,8 @@ std::vector<std::string> contact_warnings(const Scene&, const System&, const Bui
 /// Parts of the body that Craig–Bampton shapes leave rigid, in words; empty if there are none.
 std::string stiff_parts_warning(const MechanismBody&);
 
-/// Beams with a recorded section force but no axial shape: N is rounding, and its part of the stress is missing. Once per body.
+/// Beams with a recorded section force but no axial shape: N is rounding, and its part of the stress is missing. Those without a fibre.
+/// Once per body.
 std::vector<std::string> stress_warnings(const System&, const std::vector<RecordedStress>&,
                                          const std::vector<std::optional<MechanismBody>>& bodies);
 
