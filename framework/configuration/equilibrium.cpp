@@ -11,6 +11,7 @@
 #include "framework/common/stop_point.h"
 #include "framework/common/text.h"
 #include "framework/common/work_done.h"
+#include "framework/configuration/deflection_monitor.h"
 #include "framework/configuration/own_rest.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/dynamics/equations/energy.h"
@@ -243,6 +244,9 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
   find_friction_loads(system, last, rest.eq);
   record(model, out.state, rest.eq, out.table);
   warn_of_signals(scene, model, out.state, out.table, out.warnings);
+  DeflectionMonitor deflections(model);
+  deflections.see(out.state, rest.eq);
+  if (out.found) deflections.warn(out.warnings);
   if (!out.found)
     if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
 }
@@ -327,6 +331,7 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
                               : "Newton's method";
   constexpr double enough = 1e-6;  // checked again: near a singular configuration tiny displacements change the forces strongly
   const bool was_found = out.found;
+  const std::vector<std::string> moving = restless(rest.held, rest.eq.a);
   out.found = out.found && out.residual <= enough;
   if (was_found && !out.found)
     out.reason =
@@ -334,11 +339,11 @@ Equilibrium find_equilibrium(const Scene& scene, const Model& model, const Assem
         number_text(out.residual) + " of the greatest is unbalanced; start from another pose, or remove a driver or a joint";
   else if (!out.found && way.runs_away())
     out.reason =
-        "nothing stops " + some_of(restless(rest.held, rest.eq.a)) +
+        "nothing stops " + some_of(moving) +
         " from moving without limit under gravity and loads; join or support what falls, or balance the torque that keeps turning it";
   else if (!out.found)
     out.reason = "no equilibrium was found: after " + std::to_string(out.iterations) + " iterations " + number_text(out.residual) +
-                 " of the greatest force is still unbalanced, most of it at " + some_of(restless(rest.held, rest.eq.a)) +
+                 " of the greatest force is still unbalanced" + (moving.empty() ? "" : ", most of it at " + some_of(moving)) +
                  "; start nearer to the equilibrium (`start`, `pose`), or check the stiffnesses";
   finish(scene, model, rest, states, last, out);
   return out;

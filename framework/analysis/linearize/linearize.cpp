@@ -16,6 +16,7 @@
 #include "framework/common/work_done.h"
 #include "framework/configuration/unsound_laws.h"
 #include "framework/configuration/assemble.h"
+#include "framework/configuration/deflection_monitor.h"
 #include "framework/integration/integrator.h"
 #include "framework/scene/error.h"
 
@@ -294,6 +295,9 @@ Linearization linearize(const Scene& scene, const Model& model, const State& giv
   }
   add_notes(scene, system, here, laws, out);
   if (!held.empty()) out.notes.push_back(held_states(here, held) + " no mode: nothing changes it here, or it changes nothing");
+  DeflectionMonitor deflections(model);
+  deflections.see(state, here.eq);
+  deflections.warn(out.notes);
   return out;
 }
 

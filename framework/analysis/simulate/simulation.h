@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "framework/analysis/simulate/deflection_monitor.h"
 #include "framework/analysis/simulate/simulate.h"
 #include "framework/analysis/simulate/slow_contact.h"
 #include "framework/analysis/simulate/undecided_contacts.h"
 #include "framework/common/processor_time.h"
+#include "framework/configuration/deflection_monitor.h"
 #include "framework/integration/integrator.h"
 
 namespace pintle {

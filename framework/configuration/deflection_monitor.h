@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/build/build.h"
+#include "framework/dynamics/equations/equations.h"
+#include "framework/mechanism/model.h"
 
 namespace pintle {
 

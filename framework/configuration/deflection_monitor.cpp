@@ -1,4 +1,4 @@
-#include "framework/analysis/simulate/deflection_monitor.h"
+#include "framework/configuration/deflection_monitor.h"
 
 #include <algorithm>
 
