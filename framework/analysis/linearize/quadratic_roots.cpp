@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "framework/common/dense.h"
@@ -111,7 +112,7 @@ struct Companion {
   MatrixXd A;
 };
 
-std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd& L) {
+std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const SmallMotion& size, const MatrixXd& L) {
   const Companion of(s, L);
   const Eigenpairs pairs = eigenpairs(of.A);
   const auto back = L.transpose().triangularView<Eigen::Upper>();
@@ -121,10 +122,14 @@ std::vector<QuadraticRoot> companion_roots(const SmallMotion& s, const MatrixXd&
     root.lambda = pairs.value[i];
     const VectorXcd x = pairs.right.col(i), y = pairs.left.col(i);
     root.right = back.solve(x.head(of.m)), root.left = back.solve(y.segment(of.m, of.m));
-    if (of.x > 0) {  // effect of the rounding of A's entries
-      const double size = std::abs(root.lambda), of_pair = std::abs(y.dot(x));
-      root.uncertainty = of_pair > 0 ? std::min(rounding * bilinear(y, of.A.cwiseAbs(), x) / of_pair, size) : size;
-      root.zero = size <= root.uncertainty;
+    if (of.x > 0) {  // effect of the rounding of A's entries, of the terms that K and D are sums of, and of the iteration
+      const VectorXcd speed = back.solve(x.segment(of.m, of.m));
+      const double l = std::abs(root.lambda), of_pair = std::abs(y.dot(x));
+      const double noise =
+          bilinear(y, of.A.cwiseAbs(), x) + bilinear(root.left, size.K, root.right) / of.sigma + bilinear(root.left, size.D, speed);
+      const double iteration = std::numeric_limits<double>::epsilon() * of.A.norm() * y.norm() * x.norm();
+      root.uncertainty = of_pair > 0 ? std::min((rounding * noise + iteration) / of_pair, l) : l;
+      root.zero = l <= root.uncertainty;
       continue;
     }
     const Complex a = root.left.dot(s.M * root.right), b = root.left.dot(s.D * root.right), c = root.left.dot(s.K * root.right);
@@ -142,7 +147,7 @@ std::vector<QuadraticRoot> roots_of(const SmallMotion& s, const SmallMotion& siz
   const Eigen::LLT<MatrixXd> llt((s.M + s.M.transpose()) / 2);
   if (llt.info() != Eigen::Success) throw std::runtime_error("the mass matrix of the free motion is not positive");
   const MatrixXd L = llt.matrixL();
-  std::vector<QuadraticRoot> out = conservative(s, size) ? symmetric_roots(s, L) : companion_roots(s, L);
+  std::vector<QuadraticRoot> out = conservative(s, size) ? symmetric_roots(s, L) : companion_roots(s, size, L);
   double fastest = 0;
   for (const QuadraticRoot& r : out) fastest = std::max(fastest, std::abs(r.lambda));
   for (QuadraticRoot& r : out) {
@@ -155,7 +160,8 @@ std::vector<QuadraticRoot> roots_of(const SmallMotion& s, const SmallMotion& siz
     r.zero = std::max(inertia, drag) <= noise || l <= 1e-10 * fastest;
     const double slope = std::abs(r.left.dot(2.0 * r.lambda * (s.M * r.right) + s.D * r.right));
     const double error = noise + rounding * (l * l * bilinear(r.left, size.M, r.right) + l * bilinear(r.left, size.D, r.right));
-    r.uncertainty = slope > 0 ? std::min(error / slope, l) : l;
+    const double curvature = std::abs(r.left.dot(s.M * r.right));  // of a double root, whose slope vanishes
+    r.uncertainty = std::min({slope > 0 ? error / slope : l, curvature > 0 ? std::sqrt(error / curvature) : l, l});
   }
   std::ranges::stable_sort(out, {}, [](const QuadraticRoot& r) { return std::abs(r.lambda); });
   return out;

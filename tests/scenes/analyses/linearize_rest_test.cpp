@@ -37,6 +37,20 @@ TEST(LinearizeAtRest, ReleasedPendulumSwingsAboutWhereItHangs) {
   EXPECT_EQ(lin.coefficients, pintle::Coefficients::constant);
 }
 
+// x″ + 20 x′ + 100 x = 0: both roots are −10, and as a double root known to the square root of rounding.
+TEST(LinearizeAtRest, ADoubleRootIsDampedAndKnownToHalfTheDigits) {
+  const pintle::Linearization lin =
+      about_rest(scene_of("bodies: {block: {rigid: {mass: 1, inertia: 1}}}\njoints: {guide: {prismatic: [ground, block]}}\n"
+                          "ground: {points: {P: [-1, 0]}}\n"
+                          "forces: {coil: {spring: [ground.P, block], stiffness: 100, damping: 20, free length: 1}}\nrun: {until: 1}\n"));
+  ASSERT_EQ(lin.modes.size(), 2U);
+  for (const pintle::LinearMode& mode : lin.modes) {
+    EXPECT_NEAR(std::abs(mode.root), 10, 1e-4);
+    EXPECT_LT(mode.uncertainty, 1e-3);
+    EXPECT_LE(std::abs(mode.root + 10.0), std::max(mode.uncertainty, 1e-9));
+  }
+}
+
 // About its pin 0.24 kg m², rubbed by 1 N m s: 0.24 λ² + λ + 2·9.81·0.3 = 0, whatever else is only written down.
 TEST(LinearizeAtRest, AStateThatNothingChangesOrThatChangesNothingIsNoMode) {
   const pintle::Linearization lin =
