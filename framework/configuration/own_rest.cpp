@@ -238,7 +238,9 @@ JointRest newton_together(const System& system, Rest& rest, VectorXd& own, const
     damping *= 10;
   }
   rest.project(state, 1);
-  out.found = rest.residual() <= nearly && now.worst_rate() <= still;
+  constexpr double rounding = 1e-11;  // of the forces at the start, where none is left at rest that could be compared
+  const bool in_balance = rest.residual() <= nearly || now.left.lpNorm<Eigen::Infinity>() <= rounding;
+  out.found = in_balance && now.worst_rate() <= still;
   if (out.found) out.undetermined = undetermined_states(system, now, states.sought);
   if (!out.found && now.worst_rate() > still) {
     const OwnState& moving = system.states[at(now.fastest())];

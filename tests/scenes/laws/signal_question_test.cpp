@@ -83,6 +83,23 @@ TEST(SignalsAtRest, ALeakyIntegralFollowsThePose) {
   EXPECT_NEAR(held.state.y[2], 0.5, 1e-10);
 }
 
+// Without a load all forces vanish at rest, and nothing is left to compare them with.
+TEST(SignalsAtRest, AnIntegralWithoutALoadReachesItsTarget) {
+  const Scene s = read_scene_text(R"yaml(
+parameters: {target: 1 rad}
+bodies: {hub: {rigid: {mass: 1 kg, inertia: 0.05}}}
+joints: {shaft: {revolute: [ground, hub]}}
+states: {u: {rate: target - hub.angle, start: 0 rad s}}
+forces: {servo: {torque: '20 N m*(target - hub.angle) + 5 N m/s*u - 6 N m s*hub.speed', on: hub}}
+run: {until: 5 s}
+)yaml",
+                                  "scene.yaml");
+  const Model model = build(s);
+  const Equilibrium rest = find_equilibrium(s, model, assemble(s, model), 0);
+  ASSERT_TRUE(rest.found) << rest.reason;
+  EXPECT_NEAR(rest.state.y[2], 1, 1e-9);
+}
+
 class SignalsSaved : public testing::TestWithParam<const char*> {};
 
 TEST_P(SignalsSaved, GoOnFromAnyStepBitForBit) {
