@@ -303,6 +303,8 @@ Scene with_pieces(Scene scene) {
   for (PointRef& ref : scene.output.points) to.redirect(ref);
   for (PointRef& ref : scene.output.stress) to.redirect(ref);
   scene.start_bodies = to.starts();
+  for (const auto& [beam, pieces] : cuts)
+    for (const auto& [point, piece] : pieces.owner) scene.piece_of_point[beam + "." + point] = piece;
   scene.bodies.clear();
   for (const SceneBody& body : before.bodies) {
     const auto found = cuts.find(body.name);

@@ -16,7 +16,17 @@ using What = SignalWord::What;
 void SignalMaker::wrong(const Place& place, const std::string& message) const { throw SceneError(scene_.file, place, message); }
 
 const std::map<std::string, SignalWord, std::less<>>& SignalMaker::words() {
-  if (!words_) words_ = signal_words(scene_);
+  if (words_) return *words_;
+  words_ = signal_words(scene_);
+  for (const auto& [whole, piece] : scene_.piece_of_point) {  // points of cut beams go by the name of the beam as well
+    const std::string of_piece = piece + whole.substr(whole.rfind('.')) + ".";
+    std::vector<std::pair<std::string, SignalWord>> found;
+    for (auto word = words_->lower_bound(of_piece); word != words_->end() && word->first.starts_with(of_piece); ++word) {
+      found.emplace_back(whole + "." + word->first.substr(of_piece.size()), word->second);
+      if (word->second.what == What::column) found.back().second.text = word->first;
+    }
+    words_->insert(found.begin(), found.end());
+  }
   return *words_;
 }
 
@@ -141,8 +151,9 @@ WrittenOutput written_output(const Scene& scene, const SceneOutput& o, const Mod
       out.in.push_back({WrittenOutput::Input::output, word->second.index});
     } else if (what == What::column) {
       if (header.empty()) header = trajectory_table(model).header;
+      const std::string& heading = word->second.text.empty() ? name : word->second.text;
       const auto column = std::ranges::find_if(header, [&](const std::string& h) {
-        return h.starts_with(name) && (h.substr(name.size(), 2) == " [" || h.substr(name.size(), 4) == " on ");
+        return h.starts_with(heading) && (h.substr(heading.size(), 2) == " [" || h.substr(heading.size(), 4) == " on ");
       });
       if (column == header.end()) {
         const bool of_point = name.ends_with(".ax") || name.ends_with(".ay");

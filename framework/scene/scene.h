@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -309,5 +310,7 @@ struct Scene {
   std::vector<std::string> warnings = {};  ///< input that is valid but may not be intended, in words
   std::string filled_in;                   ///< the scene as JSON text, including all parameters and defaults
 };
+  /// Of beams that have been cut into pieces: the piece that a point belongs to, "boom 2" for "boom.tip".
+  std::map<std::string, std::string> piece_of_point = {};
 
 }  // namespace pintle

@@ -91,13 +91,18 @@ class SignalWordsOf {
     put(name + ".rate", What::length_rate, dimension::speed, a, b);
   }
 
+  void axes_of(const std::string& name, const SceneBody& b) {
+    const PointRef body{name, "", b.place};
+    put(name, column::body_pose, {What::x, What::y, What::angle}, body);
+    put(name, column::body_speed, {What::vx, What::vy, What::speed}, body);
+    columns(name, column::body_acceleration);
+    if (b.elastic && b.elastic->modes) modes(name, *b.elastic->modes);
+  }
   void add(const SceneBody& b) {
-    const PointRef body{b.name, "", b.place};
-    put(b.name, column::body_pose, {What::x, What::y, What::angle}, body);
-    put(b.name, column::body_speed, {What::vx, What::vy, What::speed}, body);
-    columns(b.name, column::body_acceleration);
+    const auto* beam = b.elastic ? std::get_if<SceneBeam>(&b.elastic->shape) : nullptr;
+    if (!beam || beam->pieces < 2) axes_of(b.name, b);
+    for (int k = 1; beam && beam->pieces > 1 && k <= beam->pieces; ++k) axes_of(b.name + " " + std::to_string(k), b);
     const bool bends = b.elastic && b.elastic->modes;
-    if (bends) modes(b);
     for (const ScenePoint& p : b.points) {
       const PointRef at{b.name, p.name, p.place};
       const std::string name = b.name + "." + p.name;
@@ -108,10 +113,10 @@ class SignalWordsOf {
     }
   }
   // Only `build` knows the number of modes; 40 more than the scene's count are accepted.
-  void modes(const SceneBody& b) {
-    const int most = 40 + b.elastic->modes->keep.count.value_or(0);
+  void modes(const std::string& name, const SceneModes& of) {
+    const int most = 40 + of.keep.count.value_or(0);
     for (int i = 1; i <= most; ++i)
-      put(b.name + column::mode[0].name + std::to_string(i), What::column, dimension_of_unit(column::mode[0].unit));
+      put(name + column::mode[0].name + std::to_string(i), What::column, dimension_of_unit(column::mode[0].unit));
   }
   void add(const SceneJoint& j) {
     twist(j.name, j.a, j.b);

@@ -29,7 +29,7 @@ struct SignalWord {
     travel,          ///< of b along a's direction [m]
     state,           ///< `index` among the scene's own states
     output,          ///< likewise
-    column,          ///< of trajectory.csv: quantities that depend on the accelerations
+    column,          ///< of trajectory.csv, headed `text` if that is not the name: quantities that depend on the accelerations
     work_rate,  ///< power of a force or driver into the mechanism [W]: the product `text` of signals and columns; empty: 0 at all times
   };
   What what;

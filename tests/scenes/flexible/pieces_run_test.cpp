@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/bodies/segments.h"
 #include "framework/configuration/assemble.h"
+#include "framework/scene/yaml/reader.h"
 #include "tests/oracles/exact_beam.h"
 #include "tests/scenes/flexible/flexible_scenes.h"
 #include "tests/scenes/analyses/linearised.h"
@@ -352,6 +354,30 @@ TEST(SpinUp, ABladeInPiecesReturnsWithoutStiffening) {
   EXPECT_LT(fine, 0.5 * coarse);
   EXPECT_LT(fine, 0.03 * lag);
   EXPECT_LT(largest(got, SpinUp::rise), 0.02 * lag);
+}
+
+// The points of a beam in pieces keep its name in laws and outputs, whichever piece they belong to.
+TEST(Pieces, SignalsOfTheirPointsGoByTheNameOfTheBeam) {
+  const pintle::Scene scene = pintle::read_scene_text(
+      "bodies:\n  bm:\n    beam: {from: A, to: B, section: {rectangle: [10 mm, 10 mm]}, young: 200 GPa, poisson: 0.3, density: 8000 "
+      "kg/m^3, "
+      "pieces: 2}\n    points: {A: [0, 0], B: [1 m, 0]}\n    modes: {frame: chord, craig-bampton: {count: 1}}\n"
+      "joints: {a: {revolute: [ground, bm.A]}}\nstart: {bm: {angle: 0, speed: 2 rad/s}}\n"
+      "outputs: {place: bm.B.x, pull: bm.B.ay, spin: bm 2.speed}\n"
+      "forces: {drag: {force: [\"-1 N s/m*bm.B.vx\", \"-1 N s/m*bm.B.vy\"], at: bm.B}}\n"
+      "events: {passed: {when: bm.B.y > 0.05 m, do: {set: {seen: 1}}}}\nstates: {seen: {rate: 0, start: 0}}\n"
+      "run: {until: 0.1 s}\noutput: {points: [bm.B]}\n",
+      "pieces.yaml");
+  const pintle::Scene cut = pintle::with_pieces(scene);
+  const pintle::Model model = build(cut);
+  const pintle::Run run = simulate(cut, model, assemble(cut, model));
+  ASSERT_EQ(run.status, pintle::Status::finished) << run.reason;
+  const auto last = [&](const std::string& column) { return run.trajectory.column(column).back(); };
+  EXPECT_EQ(last("place [m]"), last("bm 2.B.x [m]"));
+  EXPECT_EQ(last("pull [m/s^2]"), last("bm 2.B.ay [m/s^2]"));
+  EXPECT_EQ(last("spin [rad/s]"), last("bm 2.speed [rad/s]"));
+  EXPECT_EQ(last("seen"), 1);
+  EXPECT_LT(last("bm 2.B.vy [m/s]"), 2);
 }
 
 }  // namespace
