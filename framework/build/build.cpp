@@ -78,7 +78,7 @@ class Builder {
       if (const std::string warning = j.clearance ? rounding_warning(scene_, j, model_.system.length) : ""; !warning.empty())
         model_.warnings.push_back(warning);
     model_.clearances = complete_clearances(scene_, model_.system, model_.warnings);
-    if (!model_.system.laws.empty()) number(model_.system);  // for code that uses the motion's own rates
+    number(model_.system);  // for code that uses the motion's own rates
     for (std::string& warning : contact_warnings(scene_, model_.system, model_.order, elements_))
       model_.warnings.push_back(std::move(warning));
     scheme();

@@ -105,6 +105,14 @@ TEST(Moreau, IsRefusedWhereItDoesNotFit) {
   refused(scene(rigid, moreau(2)), "no longer than the run");
   refused(scene(rigid + ", restitution law: poisson", moreau(1e-3)), "give it to \"foot\", or use auto");
   refused(scene("normal: {hertz: {stiffness: 1e9}}", moreau(1e-3)), "give \"foot\" model: impact, or use auto");
+  const auto beam = [](const std::string& law) {
+    return "bodies:\n  bm:\n    beam: {from: A, to: B, section: {rectangle: [10 mm, 10 mm]}, young: 200 GPa, poisson: 0.3, density: 8000 "
+           "kg/m^3}\n"
+           "    points: {A: [0, 0], B: [1 m, 0]}\n    modes: {frame: {tangent: A}, craig-bampton: {count: 2}}\n"
+           "joints: {held: {weld: [ground, bm.A]}}\nforces: {push: {force: [0, " +
+           law + "], at: bm.B}}\n" + run_by(moreau(1e-3), 1, 0.1);
+  };
+  for (const char* law : {"-20 N", "-20 N*sin(t/(1 s))", "-20 N s/m*bm.B.vy"}) refused(beam(law), "rigid bodies only");
 }
 
 }  // namespace
