@@ -176,6 +176,16 @@ Closed close_anyhow(const Scene& scene, Closure& closure, const System& system, 
   return first;
 }
 
+/// What the scene prescribes holds to the last bit, in `of` the coordinates or the speeds: the solution gives it but for rounding.
+template <class Part>
+void keep_exactly(const System& system, const std::vector<Pin>& pins, Part of) {
+  constexpr double rounding = 1e-13;
+  const double size = rounding * std::max(largest(of), system.length);
+  for (const Pin& pin : pins)
+    if (double& value = of[3 * pin.body + pin.axis]; system.bodies[at(pin.body)].x_BO.isZero(0) && std::abs(value - pin.value) <= size)
+      value = pin.value;
+}
+
 int close_joints(const Scene& scene, Closure& closure, const System& system, Rough& r) {
   closure.pin(r.places);
   Closed now = close_anyhow(scene, closure, system, r);
@@ -188,6 +198,7 @@ int close_joints(const Scene& scene, Closure& closure, const System& system, Rou
         left < nearly_right ? must_fit : "check lengths and points, or give the bodies rough poses (`pose`) nearer to the intended ones");
   }
   close_in(closure, system, r.W_pose, r.y, now.C, now.J);
+  keep_exactly(system, r.places, r.y.head(system.n()));
   return now.iterations;
 }
 
@@ -223,6 +234,7 @@ int match_speeds(const Scene& scene, Closure& closure, const System& system, Rou
         scene.file, named_place(scene, closure.owner(singular.front().N.back().first)),
         "the start is a singular configuration, where the motion can branch, and no branch has these speeds; start from another "
         "pose, or give other speeds in `start`");
+  keep_exactly(system, r.rates, s);
   return 1;
 }
 
