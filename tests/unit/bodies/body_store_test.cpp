@@ -14,6 +14,7 @@
 
 #include "framework/build/build.h"
 #include "framework/scene/yaml/reader.h"
+#include "framework/common/library_threads.h"
 #include "framework/study/case.h"
 
 namespace pintle::body_store_test {
@@ -320,6 +321,8 @@ TEST(Case, StartsNoThreadsWhereItMakesBodies) {
   const CaseSource source{"scene.yaml", grid};
   std::ptrdiff_t before = 0, after = 0;
   std::thread([&] {
+    hold_library_threads();
+    library_text();  // loads BLAS, which has its threads from then on
     before = threads();
     const Outcome outcome = run_case(source, {{"bodies.rod.plate.grid.cells", "[60, 12]"}, {"run.until", "1 us"}}, {});
     after = threads();
