@@ -85,6 +85,9 @@ Run resting(const Scene& scene, const Model& model, const Assembly& assembly, do
   run.reason = rest.found ? "" : "no equilibrium: " + rest.reason;
   run.trajectory = rest.table;
   run.t_end = rest.found ? at : -1;
+  run.warnings = rest.warnings;
+  if (rest.found && rest.stability.unstable > 0)
+    run.warnings.push_back("the equilibrium is unstable in " + counted(static_cast<std::size_t>(rest.stability.unstable), "direction"));
   return run;
 }
 
