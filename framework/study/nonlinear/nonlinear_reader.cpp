@@ -191,6 +191,13 @@ Nonlinear read_nonlinear(const fs::path& path, const Overrides& set) {
     const auto words = choices("study", "direction");
     out.order = static_cast<Order>(std::ranges::find(words, root.at("direction").one_of(words)) - words.begin());
   }
+  if (!cases.names.empty() && cases.names.front().starts_with("start.")) {
+    if (root.has("direction") && out.order != Order::from_start)
+      root.at("direction")
+          .fail("makes each value continue from the end of the previous one, so that " + cases.names.front() +
+                " would have no effect; write direction: from start");
+    out.order = Order::from_start;
+  }
   if (root.has("section")) out.question.section = read_section(root.at("section"), expressions);
   if (root.has("orbit")) out.question.cycle = read_cycle(root.at("orbit"), out.question.section);
   if (root.has("lyapunov")) {
