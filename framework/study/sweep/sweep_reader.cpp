@@ -171,6 +171,15 @@ Sweep cases_of(const StudyFile& file, Cases cases, const fs::path& path, const O
 void validate_measures(const Sweep& sweep, std::vector<std::string> columns) {
   for (std::size_t i = 0; i < sweep.cases.names.size(); ++i)
     require_other_name(sweep.cases.names[i], columns, sweep.study.file, sweep.cases.places[i]);
+  const std::vector<Situation>& situations = sweep.study.scene.situations;
+  for (std::size_t i = 0; i < sweep.cases.names.size(); ++i) {
+    const auto sets = [&](const Situation& s) {
+      return std::ranges::find(s.set, sweep.cases.names[i], &Overrides::value_type::first) != s.set.end();
+    };
+    if (!situations.empty() && std::ranges::all_of(situations, sets))
+      throw SceneError(sweep.study.file, sweep.cases.places[i],
+                       "is also set by every situation, which comes after it, so that varying it would have no effect; remove one of them");
+  }
   columns.insert(columns.end(), sweep.cases.names.begin(), sweep.cases.names.end());
   require_other_names(sweep.study.measures, columns);
   const Scene all_have = common_scene(sweep.study.scene);
