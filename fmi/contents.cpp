@@ -80,19 +80,6 @@ void choose_outputs(const Scene& scene, const std::vector<std::string>& wanted, 
   }
 }
 
-/// The unit of each parameter that has one, from the scene with its values filled in: "1e-05 m".
-std::map<std::string, std::string> parameter_units(const Scene& scene) {
-  std::map<std::string, std::string> out;
-  const Json said = Json::parse(scene.filled_in, nullptr, false);
-  if (!said.is_object() || !said.contains("parameters")) return out;
-  for (const auto& [name, value] : said["parameters"].items())
-    if (value.is_string()) {
-      const auto& text = value.get_ref<const std::string&>();
-      out[name] = written(text.substr(text.find(' ') + 1));
-    }
-  return out;
-}
-
 }  // namespace
 
 std::vector<FmuVariable> variables_of(const Scene& scene, const Model& model, const std::vector<std::string>& inputs,
@@ -119,8 +106,7 @@ std::vector<FmuVariable> variables_of(const Scene& scene, const Model& model, co
       add({FmuVariable::contacts, contact + ".contacts", "", contact});
       add({FmuVariable::touching, contact + ".touching", "", contact});
     }
-  std::map<std::string, std::string> units = parameter_units(scene);
-  for (const auto& [name, value] : scene.parameters) add({FmuVariable::parameter, name, units[name], name, value});
+  for (const SceneParameter& p : scene.parameters) add({FmuVariable::parameter, p.name, written(p.unit), p.name, p.value});
   return out;
 }
 

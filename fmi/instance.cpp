@@ -73,7 +73,7 @@ std::shared_ptr<const FmuPrepared> FmuInstance::prepared_for(const FmuSettings& 
   Assembly assembly = assemble(scene, model);
   std::vector<std::string> states, parameters;
   for (const OwnState& state : model.system.states) states.push_back(state.name);
-  for (const auto& [name, value] : scene.parameters) parameters.push_back(name);
+  for (const SceneParameter& p : scene.parameters) parameters.push_back(p.name);
   const std::vector<std::string> columns = trajectory_table(model).header;
   std::vector<std::size_t> place;
   for (const FmuVariable& v : contents_.variables)
@@ -233,7 +233,7 @@ double FmuInstance::number(std::uint32_t index) {
   if (v.kind == FmuVariable::parameter) {
     if (settings_.values[index]) return *settings_.values[index];
     if (std::ranges::none_of(settings_.values, [](const auto& value) { return value.has_value(); })) return v.start;
-    return prepared_for(settings_)->scene.parameters[prepared_->place[index]].second;  // it may depend on a parameter that is set
+    return prepared_for(settings_)->scene.parameters[prepared_->place[index]].value;  // it may depend on a parameter that is set
   }
   if (v.kind != FmuVariable::column)
     throw FmuError("\"" + v.name + "\" is no Float64 but counts; ask for it as modelDescription.xml types it");

@@ -103,7 +103,12 @@ void bind_scene(py::module_& m) {
       .def("assembled", &assembled)
       .def_property_readonly("title", [](const SceneSource& s) { return s.scene.title; })
       .def_property_readonly("name", [](const SceneSource& s) { return s.name; })
-      .def_property_readonly("parameters", [](const SceneSource& s) { return s.scene.parameters; })
+      .def_property_readonly("parameters",
+                             [](const SceneSource& s) {
+                               std::vector<std::pair<std::string, double>> out;
+                               for (const SceneParameter& p : s.scene.parameters) out.emplace_back(p.name, p.value);
+                               return out;
+                             })
       .def_property_readonly("warnings", [](const SceneSource& s) { return s.scene.warnings; })
       .def_property_readonly("filled_in", [](const SceneSource& s) { return s.scene.filled_in; });
   m.def("trust", &trust);

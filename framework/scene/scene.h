@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "framework/common/signal_function.h"
 #include "framework/common/heap_optional.h"
+#include "framework/common/signal_function.h"
 #include "framework/common/time_law.h"
 #include "framework/scene/elastic.h"
 #include "framework/scene/place.h"
@@ -284,11 +284,19 @@ struct OutputOptions {
   Place place;
 };
 
+/// A parameter, in SI.
+struct SceneParameter {
+  std::string name;
+  double value = 0;
+  std::string unit = {};  ///< "N*s/m"; empty: a number
+  bool varies = false;    ///< events set it; `value` is its initial value
+};
+
 struct Scene {
   std::string file;  ///< for messages
   std::string title;
-  Pair gravity{0, 0};                                      ///< [m/s²]
-  std::vector<std::pair<std::string, double>> parameters;  ///< after overrides, SI
+  Pair gravity{0, 0};                      ///< [m/s²]
+  std::vector<SceneParameter> parameters;  ///< after overrides, SI
   std::vector<SceneMaterial> materials;
   std::optional<SceneStatic> statics;
   std::vector<ScenePoint> ground;  ///< points of the ground
@@ -302,6 +310,8 @@ struct Scene {
   std::vector<SceneOutput> outputs = {};
   std::vector<SceneEvent> events = {};
   std::vector<StartBody> start_bodies;
+  /// Of beams that have been cut into pieces: the piece that a point belongs to, "boom 2" for "boom.tip".
+  std::map<std::string, std::string> piece_of_point = {};
   bool start_at_rest = false;  ///< `start: equilibrium`
   std::vector<StartJournal> start_journals;
   bool has_run = true;  ///< false: nothing to run (reader.h: require_run); `run` is then meaningless
@@ -310,7 +320,5 @@ struct Scene {
   std::vector<std::string> warnings = {};  ///< input that is valid but may not be intended, in words
   std::string filled_in;                   ///< the scene as JSON text, including all parameters and defaults
 };
-  /// Of beams that have been cut into pieces: the piece that a point belongs to, "boom 2" for "boom.tip".
-  std::map<std::string, std::string> piece_of_point = {};
 
 }  // namespace pintle

@@ -58,11 +58,9 @@ Json points(const std::vector<ScenePoint>& all) {
 }
 
 // A parameter keeps its unit, so that laws in t that use it can be read back.
-Json parameter(const std::string& name, double value, const Parameters& parameters) {
-  const auto found = parameters.find(name);
-  const std::string unit = found == parameters.end() ? "" : si_unit(found->second.dimension);
-  if (unit.empty()) return value;
-  return Json(value).dump() + " " + unit;
+Json parameter(const SceneParameter& p) {
+  if (p.unit.empty()) return p.value;
+  return Json(p.value).dump() + " " + p.unit;
 }
 
 Json path_point(const ScenePathPoint& p) { return p.point.empty() ? json(p.at) : Json(p.point); }
@@ -255,7 +253,7 @@ Json json(const OutputOptions& output, const Scene& scene) {
 
 }  // namespace
 
-std::string filled_in(const Scene& scene, const Parameters& parameters) {
+std::string filled_in(const Scene& scene) {
   const auto entry = [](const auto& x) { return with_engaged(json(x), x.engaged); };
   const auto force = [](const SceneLoad& l) {
     return with_engaged(std::visit([](const auto& what) { return load(what); }, l.what), l.engaged);
@@ -264,7 +262,7 @@ std::string filled_in(const Scene& scene, const Parameters& parameters) {
   if (!scene.title.empty()) out["title"] = scene.title;
   out["gravity"] = json(scene.gravity);
   Json& named = out["parameters"] = Json::object();
-  for (const auto& [name, value] : scene.parameters) append(named, name, parameter(name, value, parameters));
+  for (const SceneParameter& p : scene.parameters) append(named, p.name, parameter(p));
   out["materials"] = entries(scene.materials, [](const SceneMaterial& m) { return json(m); });
   out["ground"]["points"] = points(scene.ground);
   if (!scene.ground_profiles.empty()) out["ground"]["profiles"] = profiles(scene.ground_profiles);

@@ -71,7 +71,7 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
       if (const auto found = set.find(name); found != set.end()) q = overridden(name, found->second, q, source);
       q.varies = varying.contains(name);
       source.parameters[name] = q;
-      scene.parameters.emplace_back(name, q.value);
+      scene.parameters.push_back({name, q.value, si_unit(q.dimension), q.varies});
     }
   }
   for (const auto& [name, text] : set)
@@ -82,19 +82,18 @@ void read_parameters(const Node& root, const Overrides& overrides, Source& sourc
 }
 
 // A parameter set by events is a state with rate 0 where a value may follow it; elsewhere it has no value.
-void make_parameters_states(const Source& source, Scene& scene) {
-  for (const auto& [name, value] : scene.parameters) {
-    const Quantity& q = source.parameters.find(name)->second;
-    if (!q.varies) continue;
-    scene.states.push_back({.name = name,
+void make_parameters_states(Scene& scene) {
+  for (const SceneParameter& p : scene.parameters) {
+    if (!p.varies) continue;
+    scene.states.push_back({.name = p.name,
                             .rate = {[](double) {
                                        return Jet{0, 0, 0};
                                      },
                                      "0", true},
-                            .start = value,
-                            .scale = value == 0 ? 1 : std::abs(value),
-                            .unit = si_unit(q.dimension),
-                            .place = {0, "parameters." + name}});
+                            .start = p.value,
+                            .scale = p.value == 0 ? 1 : std::abs(p.value),
+                            .unit = p.unit,
+                            .place = {0, "parameters." + p.name}});
   }
 }
 
@@ -139,7 +138,7 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   read_joints(root, scene);
   read_contacts(root, scene);
   read_drivers(root, folder, scene);
-  make_parameters_states(source, scene);
+  make_parameters_states(scene);
   read_states(root, scene);
   read_forces(root, scene);
   read_state_rates(root, scene);
@@ -154,7 +153,7 @@ Scene read(const std::string& text, const std::string& file, const Overrides& ov
   for (SceneBody& b : scene.bodies)
     if (b.elastic && b.elastic->modes && b.elastic->modes->keep.automatic && !root.at("bodies").at(b.name).at("modes").has("frame"))
       choose_frame(b, scene);
-  scene.filled_in = filled_in(scene, source.parameters);
+  scene.filled_in = filled_in(scene);
   return scene;
 }
 

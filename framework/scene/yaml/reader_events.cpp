@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, Law>> read_settings(const Node& group, const 
       refuse_output(node, name, scene);
       std::vector<std::string> known;
       for (const SceneState& s : scene.states) known.push_back(s.name);
-      for (const auto& [parameter, value] : scene.parameters) known.push_back(parameter);
+      for (const SceneParameter& p : scene.parameters) known.push_back(p.name);
       if (const Scope* own = node.source().scope(node.yaml().scope); own && own->own.contains(node.name()))
         node.fail("\"" + node.name() +
                   "\" is a parameter of the assembly, and only those of the scene can be set; make it a state of the assembly: states: {" +

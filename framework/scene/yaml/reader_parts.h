@@ -127,7 +127,7 @@ double unit_factor(const Node& group, std::string_view key, const Dimension& exp
 void read_optional(const Node& group, std::string_view key, const Dimension&, Rule, double& value);
 
 /// The scene as JSON that the reader converts back to the same scene.
-std::string filled_in(const Scene&, const Parameters&);
+std::string filled_in(const Scene&);
 
 /// The default reference conditions of a body whose modes are chosen by the scene's motion: through the two points farthest apart that
 /// joints hold, or at the only such point if it is clamped; otherwise mean axes. @pre it has modes

@@ -287,10 +287,11 @@ class Reading {
 
   double time(const std::string& text) const {
     Parameters parameters;
-    for (const auto& [name, value] : scene_.parameters) parameters[name] = {value, {}};
+    for (const SceneParameter& p : scene_.parameters)
+      parameters[p.name] = {p.value, p.unit.empty() ? Dimension{} : read_quantity(p.unit).dimension};
     try {
       const double t = read_quantity(text, dimension::time, parameters);
-      if (t < 0) throw ExpressionError("\"" + text + "\" is before the run begins");
+      if (t < 0) throw ExpressionError("\"" + text + "\" is negative");
       return t;
     } catch (const ExpressionError& error) {
       fail(std::string(error.what()) +
@@ -335,7 +336,7 @@ class Reading {
       asked_.last = time(rest), asked_.from = std::max(0.0, scene_.run.until - asked_.last);
     else
       asked_.to = time(rest);
-    if (!(asked_.to > 0)) fail("its window is empty");
+    if (!(asked_.to > 0) || (scene_.has_run && asked_.from == scene_.run.until)) fail("its window is empty");
   }
 
   /// Rejects what the analysis does not provide; statics provides only its single instant.

@@ -49,9 +49,9 @@ std::optional<MeasuredExpression> measured_expression(const std::string& text, c
       return MeasuredExpression{{part, std::move(read.law), si_unit(read.dimension), {}}, end};
     } catch (const ExpressionError& error) {
       why = error.what();
-      for (const auto& [parameter, value] : scene.parameters)
-        if (why.find("\"" + parameter + "\" is neither") != std::string::npos)
-          why = "parameters are not allowed in measures: name an output of the scene that equals " + parameter;
+      for (const SceneParameter& p : scene.parameters)
+        if (why.find("\"" + p.name + "\" is neither") != std::string::npos)
+          why = "parameters are not allowed in measures: name an output of the scene that equals " + p.name;
     }
   }
   return {};

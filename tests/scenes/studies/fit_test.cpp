@@ -123,7 +123,7 @@ TEST(Fit, ASpringIsChosenForANaturalFrequency) {
     const std::string text = contents(folder / "out/fitted.yaml");
     EXPECT_NE(text.find("Fitted by pintle fit"), std::string::npos);
     const CaseSource scene = read_case_source(folder / "out/fitted.yaml");
-    EXPECT_NEAR(common_scene(scene).parameters.at(0).second, exact, exact * 2e-3 / 3) << text;
+    EXPECT_NEAR(common_scene(scene).parameters.at(0).value, exact, exact * 2e-3 / 3) << text;
   }
 }
 

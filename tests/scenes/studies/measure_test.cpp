@@ -310,7 +310,7 @@ TEST(Measure, ThatCannotBeReadSaysWhatTheSceneHas) {
            {"time of mean x of slider", {"time of peak WHAT"}},
            {"", {"cannot be measured"}},
            {"mean x of slider before 0 s", {"empty"}},
-           {"x of slider at -1 s", {"before the run begins"}}}) {
+           {"x of slider at -1 s", {"is negative"}}}) {
     SCOPED_TRACE(b.words);
     const Measure measure{"name", b.words, Place{7, "measure.name"}, "study.yaml"};
     const std::string said = pintle_test::refusal_by([&] { read_measure(measure, scene); });

@@ -77,7 +77,7 @@ TEST(Override, TakesAwayWhatIsNotThereWithoutAWord) {
 TEST(Override, ParameterOfTheNameOfAKeyStaysAParameter) {
   const Scene scene = read_scene_text(with("  speed: 150 rad/s", "  speed: 150 rad/s\n  title: 3 mm"), "scene.yaml", {{"title", "4 mm"}});
   EXPECT_EQ(scene.title, "Slider-crank");
-  EXPECT_EQ(scene.parameters.back().second, 4e-3);
+  EXPECT_EQ(scene.parameters.back().value, 4e-3);
 }
 
 TEST(Override, ThatLeadsNowhereSaysWhereAndWhatToDo) {

@@ -157,7 +157,7 @@ TEST(Reader, DeletingTheClearanceLeavesAnIdealJoint) {
 TEST(Reader, OverrideReplacesAParameterEverywhere) {
   const Scene scene = read_scene_text(slider_crank, "scene.yaml", {{"clearance", "0.1mm"}});
   EXPECT_EQ(scene.joints[1].clearance->radial, 1e-4);
-  EXPECT_EQ(scene.parameters[0].second, 1e-4);
+  EXPECT_EQ(scene.parameters[0].value, 1e-4);
   const Scene bare = read_scene_text(slider_crank, "scene.yaml", {{"clearance", "2e-4"}});
   EXPECT_EQ(bare.joints[1].clearance->radial, 2e-4);
 }
