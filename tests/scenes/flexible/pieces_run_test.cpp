@@ -376,7 +376,7 @@ TEST(Pieces, SignalsOfTheirPointsGoByTheNameOfTheBeam) {
   EXPECT_EQ(last("place [m]"), last("bm 2.B.x [m]"));
   EXPECT_EQ(last("pull [m/s^2]"), last("bm 2.B.ay [m/s^2]"));
   EXPECT_EQ(last("spin [rad/s]"), last("bm 2.speed [rad/s]"));
-  EXPECT_EQ(last("seen"), 1);
+  EXPECT_EQ(last("seen [1]"), 1);
   EXPECT_LT(last("bm 2.B.vy [m/s]"), 2);
 }
 
