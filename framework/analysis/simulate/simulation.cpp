@@ -23,7 +23,7 @@ Clock::Clock(double interval, double until, std::vector<double> also) : interval
   const auto on_interval = [&](double t) { return std::abs(t / interval - std::round(t / interval)) < 1e-7; };
   std::erase_if(also_, [&](double t) { return last_ < 0 || !(t > 0 && t < until) || on_interval(t); });
   std::ranges::sort(also_, std::greater());
-  also_.erase(std::ranges::unique(also_).begin(), also_.end());
+  also_.erase(std::unique(also_.begin(), also_.end()), also_.end());
 }
 
 double Clock::next() const {
