@@ -59,23 +59,29 @@ void validate_locking(const ScenePlate& plate, const Mesh& mesh, std::vector<std
   warnings.push_back(s.str());
 }
 
+/// f(element, length) of each element that bends.
+template <class F>
+void each_beam(const FeModel& model, F f) {
+  const auto each = [&](const auto& block) {
+    for (int i = 0; i < block.size(); ++i)
+      if constexpr (requires { block.element(i).EI; }) {
+        const auto x = block.coords(i, model.x);
+        f(block.element(i), (x.col(1) - x.col(0)).norm());
+      }
+  };
+  for (const AnyBlock& any : model.blocks) std::visit(each, any);
+}
+
 /// Warns of rounding in the bending of a slender beam, due to its much larger axial stiffness (docs/theory/elements.md).
 void validate_slenderness(const FeModel& model, std::vector<std::string>& warnings) {
   constexpr double too_much = 0.01;
   double length = 0, stretch = 0, bending = std::numeric_limits<double>::infinity();
   int elements = 0;
-  const auto count = [&](const auto& block) {
-    for (int i = 0; i < block.size(); ++i) {
-      const auto& beam = block.element(i);
-      if constexpr (requires { beam.EI; }) {
-        const auto x = block.coords(i, model.x);
-        length += (x.col(1) - x.col(0)).norm();
-        stretch = std::max(stretch, beam.EA), bending = std::min(bending, beam.EI);
-        ++elements;
-      }
-    }
-  };
-  for (const AnyBlock& any : model.blocks) std::visit(count, any);
+  each_beam(model, [&](const auto& beam, double here) {
+    length += here;
+    stretch = std::max(stretch, beam.EA), bending = std::min(bending, beam.EI);
+    ++elements;
+  });
   const double lost = elements * std::numeric_limits<double>::epsilon() * stretch * length * length / (3 * bending);
   if (!(lost > too_much)) return;
   std::ostringstream s;
@@ -88,15 +94,7 @@ void validate_slenderness(const FeModel& model, std::vector<std::string>& warnin
 void validate_shortest_element(const FeModel& model, std::vector<std::string>& warnings) {
   constexpr double noticeable = 1e-3, too_much = 1e-2;
   double length = 0, shortest = std::numeric_limits<double>::infinity();
-  const auto measure = [&](const auto& block) {
-    for (int i = 0; i < block.size(); ++i)
-      if constexpr (requires { block.element(i).EI; }) {
-        const auto x = block.coords(i, model.x);
-        const double here = (x.col(1) - x.col(0)).norm();
-        length += here, shortest = std::min(shortest, here);
-      }
-  };
-  for (const AnyBlock& any : model.blocks) std::visit(measure, any);
+  each_beam(model, [&](const auto&, double here) { length += here, shortest = std::min(shortest, here); });
   const double lost = 4 * std::numeric_limits<double>::epsilon() * std::pow(length / shortest, 3);
   if (!(lost > noticeable)) return;
   std::ostringstream s;
