@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/dynamics/solvers/sparse_ldl.h"
+
 namespace pintle {
 
 namespace {
@@ -11,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr Index few = 100;  ///< rows and columns of a small matrix; SPQR takes time to load
+constexpr Index few = SparseLdl::few;  ///< rows and columns of a small matrix; SPQR takes time to load
 
 int dense_column_rank(const Sparse& A, double tolerance, std::vector<Weights>& idle) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr{Eigen::MatrixXd(A)};
