@@ -244,11 +244,13 @@ void finish(const Scene& scene, const Model& model, Rest& rest, const RestingSta
   find_friction_loads(system, last, rest.eq);
   record(model, out.state, rest.eq, out.table);
   warn_of_signals(scene, model, out.state, out.table, out.warnings);
-  DeflectionMonitor deflections(model);
-  deflections.see(out.state, rest.eq);
-  if (out.found) deflections.warn(out.warnings);
-  if (!out.found)
-    if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
+  if (out.found) {
+    DeflectionMonitor deflections(model);
+    deflections.see(out.state, rest.eq);
+    deflections.warn(out.warnings);
+    return;
+  }
+  if (const std::string unsound = explain_signals(scene, model, last, last); !unsound.empty()) out.reason += "; " + unsound;
 }
 
 VectorXd own_states(const System& system, const State& state) {
